@@ -191,7 +191,7 @@ def collisions():
 
 
 def sweep(damping, mass_ratio, restitution=1.0):
-    """Return a clearance sweep with an optimum 5 % above the rule for e = 1, and lower for e < 1."""
+    """Return a clearance sweep. The optimum is 5 % above the rule for e = 1, lower for e < 1."""
     frequency = PEAKS[damping]
     rule = 1 / (mass_ratio * frequency**2)
     best = rule * (1.05 - 0.5 * (1 - restitution))

@@ -1,4 +1,4 @@
-"""Bouncing balls that fall through the floor in other programs, against closed forms.
+"""Bouncing balls, which fall through the floor in other programs, against closed forms.
 
 SciML/DifferentialEquations.jl, issue 138 (a ball that keeps its energy) and issue 696 (restitution
 0.5). Here the loose mass is the ball, one wall the floor, and a machine without spring, whose
@@ -30,7 +30,7 @@ def ball(height, time, restitution, stiffness):
 
 @pytest.mark.parametrize("height", [0.1, 1.0, 9.0, 50.0])
 def test_no_impact_is_missed_in_50_seconds(height):
-    """All impacts are periodic: 2 v/g of flight, and the time on a spring that carries a load."""
+    """Impacts are periodic. A period is 2 v/g of flight, and the contact with a loaded spring."""
     stiffness, time = 1e6, 50.0
     states, begun = ball(height, time, 1.0, stiffness)
     speed, natural = np.sqrt(2 * GRAVITY * height), np.sqrt(stiffness)
@@ -42,7 +42,7 @@ def test_no_impact_is_missed_in_50_seconds(height):
 
 
 def test_a_ball_that_loses_energy_comes_to_rest_on_the_floor():
-    """Flights shorten by the restitution, until the ball lies on the floor with its weight."""
+    """Each flight is shorter by the factor e. At the end the ball's weight rests on the floor."""
     restitution, stiffness, height = 0.5, 1e8, 2.0
     states, begun = ball(height, 4.0, restitution, stiffness)
     fall = np.sqrt(2 * height / GRAVITY)

@@ -1,8 +1,8 @@
 """An experiment: free decay of a cantilever with lead particles at its tip.
 
 Friend and Kinra, J. Sound Vib. 233(1), 93, 2000. Their abstract prints the largest specific damping
-capacity, about 0.5, and the mass of the particles, about 6 % of the structure. What it does not
-print is assumed, as `docs/explanation/experiment.md` says.
+capacity, about 0.5, and the mass of the particles, about 6 % of the structure. All other values are
+assumed, as `docs/explanation/experiment.md` says.
 """
 
 import numpy as np
@@ -34,7 +34,7 @@ def largest_capacity(mass_ratio, restitution):
 
 
 def _capacities(damper):
-    """Return the shares of energy lost between maxima of a decay, the first cycle left out."""
+    """Return shares of energy lost from each maximum of a decay to the next, except the first."""
     state = (RELEASED * UNIT, 0.0, damper.gap / 2, 0.0)  # at rest on the lower wall
     x = simulate(MACHINE, damper, FREQUENCY, state, periods=14)["displacement"].values / 1e3 / UNIT
     peaks = x[1:-1][(x[1:-1] >= x[:-2]) & (x[1:-1] > x[2:])]
@@ -43,10 +43,10 @@ def _capacities(damper):
 
 
 def test_friend_and_kinra():
-    """The measured value lies between the predictions for the ends of what is assumed."""
+    """The measured value lies between predictions for the least and largest assumed values."""
     assert largest_capacity(0.055, 0.05) < MEASURED < largest_capacity(0.065, 0.3)
 
 
 def test_the_mass_ratio_is_to_the_modal_mass():
-    """A uniform cantilever has a quarter of its mass as modal mass: four times the mass ratio."""
+    """The modal mass of a cantilever is a quarter of its mass, so rm is four times as large."""
     assert largest_capacity(4 * 0.06, 0.05) > 1.5 * MEASURED

@@ -26,7 +26,7 @@ WALLS = list(product([0.4, 0.9], [0.05, 0.1], [20, 80], [0.95, 1.05]))
 
 @pytest.mark.parametrize(("restitution", "mass", "gap", "frequency"), WALLS)
 def test_rigid_walls_are_the_limit_of_stiff_contacts(restitution, mass, gap, frequency):
-    """Masri and Caughey's displacement and multiplier; the difference falls as r1^(-1/2)."""
+    """The difference to Masri and Caughey's displacement and multiplier falls as r1^(-1/2)."""
     damper = Damper(mass, gap / 2, restitution)
     motions = [each for each in two_impact_motions(LINEAR, damper, frequency) if each.room > 0]
     if not motions:
@@ -58,9 +58,9 @@ def _symmetric(p, state, phase):
     return orbit
 
 
-# Thompson and Stewart's oscillator x'' + 0.08 x' + x^3 = 0.2 cos t: a start on each of its five
-# motions, and the shares of 10 000 starts in a box computed by bSTAB (Stender and Hoffmann,
-# Nonlinear Dyn. 107, 1451, 2022).
+# Thompson and Stewart's oscillator x'' + 0.08 x' + x^3 = 0.2 cos t has five motions. STARTS has a
+# start on each motion, SHARES the share of 10 000 starts in BOX that lead to each motion, by bSTAB
+# (Stender and Hoffmann, Nonlinear Dyn. 107, 1451, 2022).
 FIVE = Oscillator(0.08, 0.0, force=0.2)
 BOX, BSTAB_STARTS = ((-1.0, 1.0), (-0.5, 1.0)), 10_000
 STARTS = [(-0.21, 0.02), (1.05, 0.77), (-0.67, 0.02), (-0.46, 0.30), (-0.43, 0.12)]
@@ -89,7 +89,7 @@ def test_shares_of_five_motions_differ_by_chance():
 @pytest.mark.parametrize("cubic", [-1.0, 1.0])
 @pytest.mark.parametrize("damping_ratio", [0.02, 0.01, 0.005])
 def test_jumps_are_folds_of_the_branch(cubic, damping_ratio):
-    """Brennan et al., J. Sound Vib. 318, 1250, 2008: one harmonic, and no damping at one fold."""
+    """The formulas of Brennan et al., J. Sound Vib. 318, 1250, 2008, assume one harmonic."""
     force = 0.8 * damping_ratio
     down = np.sqrt((1 + np.sqrt(1 + 3 * cubic * force**2 / (4 * damping_ratio**2))) / 2)
     up = np.sqrt(1 + 1.5 ** (4 / 3) * np.cbrt(cubic * force**2))
@@ -105,7 +105,7 @@ def test_jumps_are_folds_of_the_branch(cubic, damping_ratio):
 
 @pytest.mark.parametrize("speed", [0.1, 0.5, 2.0])
 def test_impact_on_a_hertz_contact(speed):
-    """The linear spring that stores the same energy: 4/5 of the force, 6.7 % more time."""
+    """A linear spring of equal energy has 4/5 of the force, and contacts are 6.7 % longer."""
     machine, ball, half_gap = 12.0, 0.6, 1.0
     contact, mass = HertzContact(0.0264, 210e9, 0.3), ball * machine / (ball + machine)
     hertz, stiffness = contact.impact(speed, mass), contact.stiffness(speed, mass)

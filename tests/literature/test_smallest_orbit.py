@@ -14,7 +14,7 @@ from impact_damper.model.parameters import Damper, Oscillator
 @pytest.mark.parametrize("restitution", [0.7, 0.8, 0.9])
 @pytest.mark.parametrize("mass", [0.005, 0.02])
 def test_the_smallest_orbit_lies_at_the_fold(mass, restitution):
-    """Within 2 rm of motions between rigid walls; for e = 0.5 the smallest one lies 4 % below."""
+    """The relative error is within 2 rm of motions between rigid walls, for e of 0.7 or more."""
     damping_ratio = 0.1 * mass
     s = (1 - restitution) / (1 + restitution)
     q = np.pi**2 / 4 + s**2

@@ -1,9 +1,9 @@
 /* Motions of a machine and its loose mass by the fourth-order Runge-Kutta method, in SI units.
 
-   Places are measured in the frame of the base, which adds forces of inertia: x of the machine and u
-   of the loose mass. The wall pushes with the force stiffness depth + dashpot rate while both depth
-   and force are positive. The loose mass slides on its floor with the force `friction`, or it
-   sticks while less is needed. Changes of the wall and of the friction are located by bisection. */
+   The places x of the machine and u of the loose mass are measured in the frame of the base, which
+   adds forces of inertia. The wall pushes with the force stiffness depth + dashpot rate while depth
+   and force are positive. The loose mass slides on its floor with the force `friction`, or sticks
+   while a smaller force is enough. Bisection locates changes of the wall and of the friction. */
 
 #include <math.h>
 
@@ -38,7 +38,7 @@ static void forces(const Built *b, double t, const double *y, int wall, double *
     on[1] = b->loose * (b->base * wave - b->gravity) + wall_force;
 }
 
-/* Friction on the machine that keeps the loose mass at rest on it. */
+/* Friction on the machine that keeps the loose mass at rest on the machine. */
 static double holding(const Built *b, double t, const double *y, int wall)
 {
     double on[2];
@@ -78,7 +78,7 @@ static int changed(const Built *b, double t, const double *y, Phase phase)
     return fabs(holding(b, t, y, phase.touch)) > b->friction;
 }
 
-/* The phase from a state on; after a turn or a slip the loose mass is at rest on its floor. */
+/* The phase from a state on. If the sliding speed changes sign, the loose mass is set at rest. */
 static Phase phase_at(const Built *b, double t, double *y, Phase before)
 {
     Phase phase = {touched(b, y), before.slide};

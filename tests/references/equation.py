@@ -68,7 +68,7 @@ def contact(p, side, z, w):
 def rates(p, side=0, slide=1):
     """Return the function (t, y) -> y' of the state (Z1, Z1', Z2, Z2'), for SciPy.
 
-    `side` is the wall in contact, or 0, and `slide` the sign of Z2', or 0 if the loose mass sticks.
+    `side` is the wall in contact, or 0. `slide` is the sign of Z2', or 0 if the loose mass sticks.
     """
 
     def right(t, y):
@@ -87,14 +87,14 @@ def rates(p, side=0, slide=1):
 
 
 def has_closed_forms(oscillator):
-    """Return whether the closed forms for one harmonic accept the oscillator, with a damper too."""
+    """Return whether the closed forms for one harmonic, with a damper, accept the oscillator."""
     try:
         return math.isfinite(oscillator.hardening) and not oscillator.base
     except ValueError:
         return False
 
 
-# Oscillators that the closed forms for one harmonic know.
+# Oscillators that the closed forms for one harmonic accept.
 KNOWN = {name: each for name, each in SPRINGS.items() if has_closed_forms(each)}
 
 

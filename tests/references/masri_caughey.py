@@ -2,8 +2,8 @@
 
 The closed form is from Masri and Caughey, "On the stability of the impact damper", J. Appl. Mech.
 33(3), 586-592, 1966. The loose mass flies with the velocities w and -w in turn, with w = s d0. Just
-after an impact at Z2 = -d0 the state of the primary mass is its forced response plus w times
-`Family.free`; half a cycle later this sum has changed its sign.
+after an impact at Z2 = -d0 the state of the primary mass is the forced response plus w times
+`Family.free`; half a cycle later the state has changed its sign.
 """
 
 from typing import NamedTuple
@@ -16,7 +16,7 @@ SAMPLES = 200
 
 
 class Motion(NamedTuple):
-    """A motion: speed of the loose mass, largest |Z1|, and multipliers over half a cycle.
+    """A motion: clearance, speed of the loose mass, largest |Z1|, multipliers over half a cycle.
 
     `room` is the smallest distance to a wall within a flight, divided by d0. If it is negative,
     the loose mass would pass through a wall.
@@ -35,7 +35,7 @@ class Motion(NamedTuple):
 
 
 def two_impact_motions(oscillator, damper, frequency):
-    """Return the motions with the clearance of the damper, by ascending speed."""
+    """Return the motions at the damper's clearance, by ascending speed."""
     family = Family(oscillator, damper, frequency)
     square, linear = family.across**2 + family.along**2, family.across
     root = linear**2 - square * (1 - (abs(family.response) / damper.clearance) ** 2)
@@ -44,7 +44,7 @@ def two_impact_motions(oscillator, damper, frequency):
 
 
 def flight_with_speed(oscillator, damper, frequency, ratio):
-    """Return clearance, phase and state in the middle of the flight after an impact at Z2 = -d0."""
+    """Return d0, and phase and state in the middle of the flight after an impact at Z2 = -d0."""
     family = Family(oscillator, damper, frequency)
     clearance, phase, impact = family.impact(ratio)
     parts = family.motions(ratio, clearance, phase, impact)
@@ -71,7 +71,7 @@ class Family:
         self.along = (self.before + self.free[1] - 2 * mass) / frequency
 
     def free_map(self, time):
-        """Return the matrix, shape (..., 2, 2), that maps (Z1, Z1') over a time without forcing."""
+        """Return the matrix (..., 2, 2) that maps (Z1, Z1') over `time` without forcing."""
         drag, stiffness = self.oscillator.damping / 2, self.oscillator.linear_frequency**2
         turn = np.sqrt(complex(stiffness - drag**2)) * np.asarray(time)
         cosine, sine = np.cos(turn).real, (np.sinc(turn / np.pi) * time).real
@@ -80,7 +80,7 @@ class Family:
         return decay * np.moveaxis(np.array(rows), (0, 1), (-2, -1))
 
     def impact(self, ratio):
-        """Return clearance, phase W T, and the state just before the impact at Z2 = -d0."""
+        """Return clearance, phase W T of the impact at Z2 = -d0, and the state just before it."""
         position, lag = self.across * ratio - 1, self.along * ratio
         clearance = abs(self.response) / np.hypot(position, lag)
         phase = float(np.angle((position + 1j * lag) / self.response))

@@ -41,7 +41,7 @@ def balance(a, phase, oscillator, frequency):
 
 
 def defect(a, oscillator, frequency):
-    """Return the squared amplitude of spring, inertia and damping minus the squared force."""
+    """Return |amplitude of spring, inertia and damping forces|^2 - |amplitude of the forcing|^2."""
     inside = balance(a, 0.0, oscillator, frequency)
     force = balance(0.0, 0.0, oscillator, frequency)
     return np.abs(inside - force) ** 2 - np.abs(force) ** 2
@@ -68,7 +68,7 @@ def test_all_free_solutions_are_found(oscillator):
 
 @pytest.mark.thorough
 def test_folds_are_where_solutions_appear(oscillator):
-    """The number of solutions changes at folds, and there one solution is double."""
+    """The number of solutions changes at folds. At a fold one solution is double."""
 
     def count(frequency):
         return len(free_solutions(oscillator, frequency).amplitude)
@@ -121,7 +121,7 @@ def test_maximum_response_against_a_search(oscillator):
 
 
 def test_at_the_peak_frequency_the_motion_lags_by_a_quarter_period(oscillator):
-    """With the clearance of rule (19) the balance with rigid walls then has the amplitude 0."""
+    """At this frequency and with d0 by rule (19), balance (13) has a solution with amplitude 0."""
     peak = peak_frequency(oscillator)
     a, phase = main_solutions(oscillator, peak)
     assert_allclose(phase[-1], -np.pi / 2, atol=1e-5)
@@ -169,7 +169,7 @@ def test_near_double_roots_are_told_from_a_near_miss(gap):
 
 
 def test_zeros_of_a_function_that_oscillates_ever_faster():
-    """sin(1/x) has its zeros at 1/(k pi)."""
+    """The zeros of sin(1/x) are 1/(k pi)."""
     found = smooth_roots(lambda x: np.sin(1 / x), lambda x: 1 + 1 / x, 0.05, 1.0)
     assert_allclose(found, 1 / (np.pi * np.arange(6, 0, -1)), rtol=1e-12)
 

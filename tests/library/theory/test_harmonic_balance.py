@@ -1,4 +1,4 @@
-"""Response and suppression band by harmonic balance, against solutions one by one."""
+"""Response and suppression band by harmonic balance, against single solutions of (7)."""
 
 import numpy as np
 import pytest
@@ -34,7 +34,7 @@ def test_response_holds_every_solution(response):
 
 
 def test_solutions_are_curves(response):
-    """Branches are smooth. Without the damper each is stable or unstable from fold to fold."""
+    """Branches are smooth. A free branch between two folds is stable, or unstable, throughout."""
     unstable = response.free_stability.values == flag("free_stability", "unstable")
     exists = np.isfinite(response.free_amplitude.values)
     assert exists.shape[1] == 3
@@ -55,7 +55,7 @@ def stable_amplitudes(frequency, oscillator=CUBIC, damper=PAPER):
 
 
 def test_band_of_the_paper():
-    """Below the lower edge a large motion is stable too, above it the quiet motion only."""
+    """Below the lower edge a large and the quiet motion are stable, above only the quiet motion."""
     band = harmonic_balance(CUBIC, PAPER, [2.0])
     lower, upper = band.edge_frequency.values
     assert band.band_status == flag("band_status", "found")

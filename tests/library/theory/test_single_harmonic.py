@@ -30,7 +30,7 @@ def test_contact_amplitude_is_the_first_fourier_coefficient():
 
 
 def test_contact_amplitude_near_the_wall_has_the_power_three_halves():
-    """The paper prints the power 1/2 in (11)."""
+    """Equation (11) of the paper prints the power 1/2 instead."""
     clearance, excess = 2.0, np.array([1e-3, 1e-4, 1e-5, 1e-6])
     found = contact_amplitude(clearance + excess, clearance)[0]
     expected = 8 * np.sqrt(2) / (3 * np.pi) * excess**1.5 / np.sqrt(clearance)
@@ -44,7 +44,7 @@ def test_rule_18_gives_a_root_of_zero():
 
 
 def test_near_double_solutions_are_kept_up_to_the_fold():
-    """Two solutions exist just below the fold at which they meet, and none just above."""
+    """Two solutions that meet at a fold exist just below the fold, and do not exist above it."""
 
     def count(frequency):
         return len(impacting_solutions(*PAPER, frequency).phase)
@@ -59,7 +59,7 @@ def test_near_double_solutions_are_kept_up_to_the_fold():
 
 
 def test_no_solution_with_contacts_is_missed(oscillator):
-    """Against changes of sign on a grid of amplitudes b of Z2, which may miss a close pair."""
+    """Solutions are counted on a grid of amplitudes b of Z2, which may miss two close solutions."""
     b = 1.5 * (1 + np.concatenate([[0], np.geomspace(1e-9, 1e3, 100000)]))
     escaped = 0
     for frequency in np.linspace(0.4, 2.4, 11):

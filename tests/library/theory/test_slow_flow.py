@@ -66,7 +66,7 @@ def test_jacobian_is_that_of_equations_17(name):
 
 
 def test_solutions_of_7_are_fixed_points_with_the_eigenvalues_of_the_polar_jacobian():
-    """At fixed points the element J33 of the Jacobian is 0, as in appendix A of the paper."""
+    """At fixed points the element J33 of the Jacobian is 0, as appendix A of the paper says."""
     solutions = impacting_solutions(*SCENE)
     states = fixed_points(solutions)
     assert len(states) >= 2
@@ -82,7 +82,7 @@ def test_solutions_of_7_are_fixed_points_with_the_eigenvalues_of_the_polar_jacob
 
 
 def test_slope_criterion_of_the_free_response():
-    """Of three motions without the damper the middle one is unstable; a single one is stable."""
+    """If there are three free motions, the middle motion is unstable; a single motion is stable."""
     oscillator = Oscillator(0.215)
     for frequency, expected in [(1.0, [1]), (1.7, [1, -1, 1]), (2.3, [1])]:
         states = fixed_points(free_solutions(oscillator, frequency))

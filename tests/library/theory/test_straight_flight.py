@@ -29,7 +29,7 @@ CASES = [(0.05, 1.0), (0.4, 1.0), (0.12, 0.97), (0.12, 0.75), (0.4, 0.5)]
 
 @pytest.mark.parametrize(("mass_ratio", "restitution"), CASES)
 def test_optima_of_sampled_straight_flights(mass_ratio, restitution):
-    """The optima of the displacement and of the first harmonic, against samples of the motion."""
+    """Optima of displacement and of first harmonic are compared with samples of the motion."""
     loss = 2 / np.pi * (1 + 1 / mass_ratio) * (1 - restitution) / (1 + restitution)
     most = min(1.5, 0.999 / loss) if loss else 1.5
 
@@ -73,7 +73,7 @@ def test_flight_of_the_primary_mass_solves_its_equation(damping, stiffness):
 
 
 def optima(oscillator, mass_ratio, restitution, contact_stiffness, frequency):
-    """Return optima of rm W^2 d0 by exact orbits and by the closed forms, and the `Flight`."""
+    """Return the optima of rm W^2 d0 by exact orbits, by closed forms, and the `Flight`."""
     damper = Damper(mass_ratio, 1.0, restitution, contact_stiffness)
     flight = flight_of(oscillator, damper, frequency)
     motion = QuietMotion(oscillator, damper, frequency)
@@ -84,7 +84,7 @@ def optima(oscillator, mass_ratio, restitution, contact_stiffness, frequency):
 
 @pytest.mark.parametrize("restitution", [1.0, 0.75])
 def test_what_a_contact_of_finite_duration_leaves_is_of_second_order(restitution):
-    """With 16 times the r1 a contact lasts a quarter of the time."""
+    """With r1 16 times as large, a contact lasts a quarter as long."""
     errors, uncorrected = [], []
     for stiffness in (4e3, 6.4e4):
         exact, rules, flight = optima(Oscillator(0.02), 0.25, restitution, stiffness, 8.0)
@@ -111,7 +111,7 @@ def test_damping_and_linear_stiffness_are_exact(oscillator, mass_ratio, restitut
 
 
 def test_explicit_ratios_are_of_first_order():
-    """Halving the time in contact and the damping quarters the error of the explicit formulas."""
+    """Half the time in contact and half the damping quarter the error of the explicit formulas."""
     left = []
     for half in (1.0, 0.5):
         flight = Flight(0.2, 1.0, 0.02 * half, 0.04 * half)

@@ -1,4 +1,4 @@
-"""Changes of invented data flip verdicts at the borders; unchanged, nearly all are reproduced."""
+"""Invented data, in which nearly all claims are reproduced; changes of them change verdicts."""
 
 import numpy as np
 import pytest
@@ -58,12 +58,12 @@ def orbits_times(factor, names=ELASTIC, variable="orbit_displacement"):
 
 
 def optima_times(factor):
-    """Return the change of the optimum by (7); the invented optimum is 5 % above it."""
+    """Return the change that multiplies the optimum d0 by (7), which was the optimum d0 / 1.05."""
     return each(world()["optimum"], lambda name: scale("optimum", name, analytical_optimum=factor))
 
 
 def copied(name, source):
-    """Return the change that gives a curve the branches of another one."""
+    """Return the change that gives the curve `name` the branches of the curve `source`."""
     return put("branches", name, world()["branches"][source])
 
 
@@ -71,7 +71,7 @@ FEW = each(ELASTIC, lambda name: scale("response", name, contacts=0.5))
 WIDE = each(ELASTIC, lambda name: scale("harmonic_balance", name, edge_frequency=[0.2, 1]))
 RISE = scale("optimum", "0.215_0.12_1.0", quiet_displacement=1.5, optimum_displacement=1.5)
 THIRD = put("branches", "figure_08", damped_branches("figure_08", third=0.8))
-# Number of a claim, a change of the data, and the verdict with it.
+# Number of a claim, a change of the data, and the verdict after this change.
 CHANGES = [
     ("1", scale("harmonic_balance", "figure_03a_rule", quiet_amplitude=1000), NOT_REPRODUCED),
     ("2", scale("harmonic_balance", "figure_05a", rigid_amplitude=1.1), NOT_REPRODUCED),
@@ -134,7 +134,7 @@ def damped(*parts, mass_ratio):
 
 @pytest.mark.parametrize(("overlap", "expected"), [(0.004, REPRODUCED), (0.006, DIFFERENT)])
 def test_regions_of_contact_number_overlap(overlap, expected, data):
-    """Violent orbits with four contacts end at W = 1.9, those with six begin shortly below."""
+    """Violent orbits with four contacts end at W = 1.9; orbits with six begin shortly below 1.9."""
     below, above = np.array([1.0, 1.5, 1.9]), np.array([1.9 - overlap, 1.93, 1.95])
     high = [
         branch(frequency, 0.9 * frequency / (0.215 * PEAK**2), contacts=contacts)
@@ -149,7 +149,7 @@ def test_regions_of_contact_number_overlap(overlap, expected, data):
 
 @pytest.mark.parametrize(("fall", "expected"), [(1.06, REPRODUCED), (1.04, NOT_REPRODUCED)])
 def test_fall_of_the_subharmonic_at_lower_damping(fall, expected, data):
-    """At h = 0.107 no start leads to a subharmonic; at h = 0.215 half do, to a smaller one."""
+    """No start leads to a subharmonic at h = 0.107; half lead to a smaller one at h = 0.215."""
     size = float(data["subharmonic"]["figure_05a"].free_subharmonic[0])
     remaining = 2 * (1 - 1 / fall) * size
     data["subharmonic"]["figure_05a"] = subharmonic("figure_05a", damped=remaining)

@@ -1,4 +1,4 @@
-"""Every figure of data: no warnings, nothing cut off, and a legend entry for all that is drawn."""
+"""Every figure of data: no warnings, nothing cut off, a legend entry for each kind of mark."""
 
 from functools import cache
 
@@ -54,7 +54,7 @@ def response(**parameters):
         "branch": np.broadcast_to(np.arange(len(MOTIONS)), shape),
         "maximum_displacement": np.arange(len(MOTIONS)) + FREQUENCY[:, None],
         "end_branch": [0],
-        # The first chaotic motion lasts; the second ends in some runs, and is a transient.
+        # Chaos of the first chaotic motion lasts. The second is a transient: chaos ends in a run.
         "life_ends": np.broadcast_to(np.array(contacts) == 4.0, shape).astype(int),
     }
     return dataset(data | ends, {"frequency": FREQUENCY}, DAMPER | parameters, "made up")
@@ -194,7 +194,7 @@ def test_axes_are_labelled_and_the_drawing_is_as_wide_as_a_column(drawing):
 
 
 def looks(drawn, labels):
-    """Return what distinguishes each line without its colour, by its label."""
+    """Return by label the looks of each line without its colour."""
     return {
         line.get_label(): (
             line.get_linestyle(),

@@ -63,7 +63,7 @@ def test_every_flag_has_a_name_and_a_look_of_its_own(drawing):
 
 
 def study(frequencies, restitutions):
-    """Return a study in which three of twelve cells of each panel have a start without settling."""
+    """Return a study. In three of twelve cells of each panel one start does not settle."""
     shape = 3, 4, len(frequencies), len(restitutions)
     counts = np.zeros((*shape, len(OUTCOMES)), int)
     counts[..., OUTCOMES.index("settled")] = 5

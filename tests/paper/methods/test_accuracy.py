@@ -67,7 +67,7 @@ def test_the_taylor_series_agrees_with_the_80_bit_reference(inelastic):
     assert (np.diff(found["operations"]) > 0).all()
     other = of(inelastic, "taylor_10_13")
     assert (other["state_error"].values < 0.1 * np.array(FEW["taylor"])).all()
-    # A lower order needs fewer operations at a loose tolerance and more at a tight one.
+    # A lower order needs fewer operations at a loose tolerance, and more at a tight tolerance.
     dearer = other["operations"].values > found["operations"].values
     assert list(dearer) == sorted(dearer) and dearer[-1]
 
@@ -92,7 +92,7 @@ def test_contacts_near_grazing_are_missed_by_methods_that_check_the_ends_of_step
 
 
 def typical_averages(given, integrate, periods, exponents=False):
-    """Return medians over five starts, since one run may hold a long rest of the loose mass."""
+    """Return medians over five starts, since in a run the loose mass may rest for a long time."""
     begin, found = strobe_time(given.p), []
     for shift in 1e-3 * np.arange(5):
         start = np.array(given.state) + shift
@@ -120,7 +120,7 @@ def test_averages_agree_between_methods_and_have_errors_that_fall():
 
 
 def test_stages_use_the_cheapest_tolerance_that_meets_what_a_scene_asks():
-    """With this tolerance and with all smaller ones the series is accurate enough."""
+    """With this tolerance, and with all smaller tolerances, the series is accurate enough."""
     alone = {"taylor": CONFIG["comparison"]["taylor"]} | dict.fromkeys(("orders", "merson"), [])
     data = errors_of("many_contacts", FEW | alone | {"scipy": []})
     series = of(data, "taylor").sortby("setting")

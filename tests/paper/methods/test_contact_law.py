@@ -57,7 +57,7 @@ def test_against_its_differential_equation(restitution, load, rule):
 
 @pytest.mark.parametrize(("restitution", "load"), [(0.3, 0.05), (0.3, -1), (0.75, 0.2), (0.9, -3)])
 def test_energy_and_pull(restitution, load):
-    """Energy lost in the dashpot and time of the pull against numerical integrals."""
+    """Energy lost in the dashpot and time of the pull are compared with numerical integrals."""
     z = damping_ratio(restitution)
     solution, (end, *_) = integrated(restitution, load, "zero_penetration")
     begin = integrated(restitution, load, "no_tension")[1][0]

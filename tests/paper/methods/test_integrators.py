@@ -1,4 +1,4 @@
-"""Integrators: what each must have, their orders, located contacts, stability in contact."""
+"""Integrators: required attributes, orders, located contacts, stability in contact."""
 
 import math
 
@@ -40,7 +40,7 @@ def test_an_integrator_has_what_its_stages_call(name):
 
 
 def fixed_end(method, p, y, steps, periods, t=0.0):
-    """Return the state after forcing cycles of equal steps."""
+    """Return the state after `periods` forcing cycles of `steps` equal steps each."""
     ends = np.empty((steps * periods, 5))
     step = math.pi / steps  # the frequency is 2
     fixed_steps.fixed_ends(integrators()[method].number, p, np.array(y, float), t, step, ends)
@@ -49,7 +49,7 @@ def fixed_end(method, p, y, steps, periods, t=0.0):
 
 @pytest.fixture(scope="module")
 def free():
-    """Parameters without a damper, and the state after two cycles by the Taylor series."""
+    """Return parameters without a damper, and the state after two cycles by the Taylor series."""
     p = pack(PAPER, None, 2.0)
     states, _ = sample(p, START, 0.0, [2 * 2 * math.pi / 2.0])
     return p, states[-1]
@@ -76,7 +76,7 @@ def test_a_run_on_a_smooth_motion(name, free):
 
 @pytest.mark.parametrize("method", ORDERS)
 def test_linear_stability_limit_of_the_contact(method):
-    """With almost no clearance both masses on the contact spring are a linear oscillator."""
+    """With almost no clearance the two masses and the contact spring are a linear oscillator."""
     stiffness, mass_ratio = 1e6, 0.25
     p = pack(Oscillator(1e-9), Damper(mass_ratio, 1.0, contact_stiffness=stiffness), 2.0)
     p[CLEARANCE] = 1e-12
@@ -84,7 +84,7 @@ def test_linear_stability_limit_of_the_contact(method):
     limit = integrators()[method].stability_limit
 
     def growth(scaled):
-        """Return the largest |eigenvalue| of a step; the common motion of both masses has 1."""
+        """Return the largest |eigenvalue| of a step. The common motion of the masses has 1."""
         h = scaled / contact
         drives = fixed_steps.forcing(p, 0.0, h)
 

@@ -18,7 +18,7 @@ from impact_damper.theory import single_harmonic
 
 
 def arbitrary(balance, seed=1):
-    """Return coefficients of random series, with a Z2 that touches both walls."""
+    """Return the coefficients of random series of Z1 and Z2. Z2 touches both walls."""
     generator = np.random.default_rng(seed)
     shape = 2, len(balance.harmonics)
     series = generator.standard_normal(shape) + 1j * generator.standard_normal(shape)
@@ -29,7 +29,7 @@ def arbitrary(balance, seed=1):
 
 @pytest.mark.parametrize("damper", [DESIGN, INELASTIC])
 def test_residual_is_that_of_the_sampled_equations(damper):
-    """The forces as the paper writes them, (22) to (24), at many samples."""
+    """The forces (22) to (24) of the paper are sampled at many phases."""
     balance = Balance(PAPER, damper, 2.0, 9)
     series, k = arbitrary(balance), balance.harmonics
     count = 2**17
@@ -50,7 +50,7 @@ def test_residual_is_that_of_the_sampled_equations(damper):
 @pytest.mark.parametrize("restitution", [1.0, 0.8])
 @pytest.mark.parametrize("oscillator", KNOWN.values(), ids=KNOWN)
 def test_balance_with_contacts_in_other_springs(oscillator, restitution):
-    """The Jacobian against differences of the residual, and a single harmonic against (7)."""
+    """The Jacobian agrees with differences of the residual, and a single harmonic with (7)."""
     damper = Damper(0.2, 1.0, restitution, 300.0)
     many = Balance(oscillator, damper, 1.7, 7)
     series = arbitrary(many)
@@ -79,7 +79,7 @@ def test_balance_with_contacts_in_other_springs(oscillator, restitution):
     [("softening", 0.9), ("linear", 1.2), ("shaken", 1.2), ("unbalance", 1.1), ("hard", 2.5)],
 )
 def test_a_free_motion_is_the_one_that_scipy_integrates(name, frequency):
-    """A free period-1 motion over one period by DOP853, and its multipliers by differences."""
+    """DOP853 integrates a free period-1 motion over a cycle. Differences give the multipliers."""
     oscillator = SPRINGS[name]
     balances = [Balance(oscillator, None, frequency, n) for n in (1, 3, 7, 15, 31)]
     solution = refine(balances, single_term(oscillator, None, frequency))[-1]

@@ -36,12 +36,12 @@ def seeded(parameters, state, column=-1):
 
 
 def at_phase(p, state):
-    """State at `PHASE` of the orbit through a state at the strobe."""
+    """Return the state at `PHASE` of the orbit through a state at the strobe."""
     return shoot(p, state, 1, STROBE).at(PHASE)
 
 
 def orbit_at(damper, frequency, design_orbit):
-    """The quiet orbit, followed from the design point in clearance and then in frequency."""
+    """Return the quiet orbit, followed from W = 2 over the damper and then over the frequency."""
     y, p = at_phase(design_orbit.parameters, design_orbit.state), design_orbit.parameters
     for q in (pack(PAPER, damper, 2.0), pack(PAPER, damper, frequency)):
         for share in np.linspace(0, 1, 201)[1:]:

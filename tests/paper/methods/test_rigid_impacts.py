@@ -55,7 +55,7 @@ def by_scipy(damper, frequency, y):
 @pytest.mark.parametrize(("damper", "name"), CASES)
 @pytest.mark.parametrize("frequency", [2.0, 2.3])
 def test_against_scipy(damper, name, frequency):
-    """At W = 2.3 |Z1| is largest at an impact, where Z1' does not vanish."""
+    """At W = 2.3 the largest |Z1| is at an impact, at which Z1' does not vanish."""
     y = polished_orbit(name).state
     state, _, impacts, _, _, largest = rigid_map(
         rigid(damper, frequency), damper.restitution, y, 1e-13
@@ -68,7 +68,7 @@ def test_against_scipy(damper, name, frequency):
 
 @pytest.mark.parametrize(("damper", "name"), CASES)
 def test_compliant_contact_comes_to_it(damper, name):
-    """State and derivative of the map over a period differ from compliant contact by r1^(-1/2)."""
+    """Differences to compliant walls, of the state and its derivative, fall as r1^(-1/2)."""
     y = polished_orbit(name).state
     state, matrix, *_ = rigid_map(rigid(damper, 2.0), damper.restitution, y, 1e-13)
     errors = []
@@ -80,7 +80,7 @@ def test_compliant_contact_comes_to_it(damper, name):
 
 
 def test_chatter_ends_with_a_status():
-    """A loose mass that is pressed to a wall and loses nearly all its speed hits it without end."""
+    """A loose mass that is pressed to a wall, and loses nearly all speed, impacts without end."""
     damper = Damper(0.12, 2.0, 0.05)
     y = np.array([-2.0, 0.0, 1.999, 0.0])
     assert rigid_map(rigid(damper, 0.5), 0.05, y, 1e-9)[2] == MOST_IMPACTS

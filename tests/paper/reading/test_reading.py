@@ -20,7 +20,7 @@ def data():
 
 
 def test_the_band_begins_above_the_last_violent_motion(data):
-    """The end of chaotic motions is known only to a step of the grid of frequencies."""
+    """The W at which chaotic motions end is known only within a step of the grid of W."""
     peak = PEAKS[0.215]
     band = suppression_band(data, "figure_05a")
     assert (band.lower, band.width, band.resolution) == pytest.approx((0.95 * peak, 0.05 * peak, 0))

@@ -14,7 +14,7 @@ from impact_damper.motions.simulate import random_states
 
 
 def test_collisions():
-    """The share beyond a wall follows from the volume of the ball, other waits from simulations."""
+    """The share beyond a wall follows from the volume of the ball, the waits from simulations."""
     damper, starts = Damper(0.25, 1.0), 1500
     data = collisions(PAPER, damper, 1.8, starts=starts, radius=2.0, periods=60)
     literal, within = data.isel(ball=0), data.isel(ball=1)

@@ -45,7 +45,7 @@ def model():
 
 
 def test_contacts_of_motions(model):
-    """Both motions at each of the two restitutions are the quiet one, with two contacts a cycle."""
+    """At both restitutions, both starts lead to the quiet motion with two contacts a cycle."""
     assert model.sizes["contact"] == 2 * 2 * 6
     assert (np.bincount(model.contact_used) == 12).all()
     assert (np.abs(model.contact_load) < 0.01).all()

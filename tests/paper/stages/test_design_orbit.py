@@ -1,4 +1,4 @@
-"""The exact quiet orbit at peak frequencies: motions settle on it only where it is stable."""
+"""The exact quiet orbit at peak frequencies: motions settle on the orbit only if it is stable."""
 
 import numpy as np
 import pytest

@@ -47,7 +47,7 @@ def test_first_harmonic_by_quadrature_between_contacts():
 
 @pytest.mark.parametrize(("mass_ratio", "stable"), [(0.12, False), (0.4, True)])
 def test_stability_agrees_with_a_run(mass_ratio, stable):
-    """With a linear spring and a light loose mass the quiet motion is unstable: a run leaves it."""
+    """If the quiet motion is unstable (linear spring, light loose mass), a run leaves it."""
     oscillator, frequency = Oscillator(0.215, 1.5), 2.3
     cell = design_rules(oscillator, [mass_ratio], [1.0], [2000.0], [frequency]).squeeze()
     cell = cell.sel(criterion="displacement")

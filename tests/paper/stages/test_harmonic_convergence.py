@@ -33,19 +33,19 @@ def test_elastic_contact_converges_by_the_predicted_powers(soft):
     assert (soft["hill_status"] == flag("hill_status", "found")).all()
     away = soft["decay_observed"] - soft["decay_predicted"]
     assert np.abs(away.sel(error_measure=["retained", "omitted"])).max() < 0.2
-    # The other two errors oscillate as N grows, so the fit is less accurate.
+    # The errors "maximum" and "multiplier" oscillate as N grows, so their fit is less accurate.
     assert np.abs(away).max() < 0.8
 
 
 def test_free_motion_converges_at_the_rate_of_its_singularity(free):
-    """The rate is predicted by integration in complex time; the errors are from Fourier series."""
+    """Integration in complex time predicts the rate. The errors come from Fourier series."""
     at = free.sel(error_measure="omitted")
     assert at["decay_observed"].item() == pytest.approx(at["decay_predicted"].item(), rel=1e-3)
     assert free["series_error"].sel(error_measure="maximum")[-1] < 1e-13
 
 
 def test_singularity_of_a_fast_motion():
-    """Z'' + Z^3 = 0 from (A, 0) is A cn(A T), whose poles lie K(1/2)/A = 1.8541/A away."""
+    """Z'' + Z^3 = 0 has the solution A cn(A T). Its poles are K(1/2)/A = 1.8541/A off real T."""
     amplitude = 10.0
     p = pack(Oscillator(1e-9), None, 5.0)
     near = harmonic_convergence.singularity_distance(p, np.array([amplitude, 0, amplitude, 0]))

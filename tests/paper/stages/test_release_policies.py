@@ -1,4 +1,4 @@
-"""Release by state, and trials of rules of release, against SciPy and stable manifolds."""
+"""Release by state, and trials of rules of release, compared with SciPy's motions."""
 
 import numpy as np
 import pytest
@@ -21,7 +21,7 @@ ON = pack(CUBIC, PAPER, W)
 
 @pytest.fixture(scope="module")
 def trials():
-    """Trials with the paper's damper at W, on a coarse release set."""
+    """Return trials with the paper's damper at W, with a coarse release set."""
     settling = Settling()
     return Trials(ON, release_set(CUBIC, W, settling, cells=32), settling)
 
@@ -61,7 +61,7 @@ def test_a_hold_agrees_with_scipy(trials):
 
 @pytest.mark.thorough
 def test_depth_tells_where_free_motions_of_scipy_settle(trials):
-    """Far inside the release set every motion settles to the goal; far outside none does."""
+    """Far inside the release set every motion settles to the goal, far outside no motion does."""
     attractors, releases = trials.releases.attractors, trials.releases
     generator = np.random.default_rng(5)
     told = 0
@@ -81,7 +81,7 @@ def test_depth_tells_where_free_motions_of_scipy_settle(trials):
 
 
 def test_the_interval_of_a_quantile_covers_it():
-    """The chance that the interval of order statistics holds the median is at least 95 %."""
+    """An interval of order statistics holds the median with a probability of at least 95 %."""
     middle, lower, upper = quantile(np.arange(100), 0.5)
     assert lower < middle < upper
     assert binom.cdf(upper, 100, 0.5) - binom.cdf(lower, 100, 0.5) >= 0.95

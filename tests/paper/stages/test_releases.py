@@ -22,7 +22,7 @@ def runs():
 
 @pytest.mark.parametrize("row", [1, 2])
 def test_releases(runs, row):
-    """Releases of the quiet motion and of the motion of period 3 lead where SciPy's runs lead."""
+    """Releases from the quiet motion and from period 3 lead to the motions of SciPy's runs."""
     maxima = {}
     for k in range(0, 40, 4):
         begin = (float(runs.release_phase[row, k]) % 1 + 0.25) * 2 * np.pi / 1.85
@@ -43,7 +43,7 @@ def test_releases(runs, row):
 
 
 def test_release_scan():
-    """At W = 1.73 releases of the quiet motion lead to period 3, which is absent at W = 1.7."""
+    """Releases from the quiet motion lead to period 3 at W = 1.73. It does not exist at W = 1.7."""
     small = {"starts": 16, "releases": 10, "lifetime": 60, "settling": Settling()}
     scan = release_scan(CUBIC, PAPER, [1.7, 1.73], **small)
     quiet = scan.damped_kind == flag("damped_kind", "quiet")

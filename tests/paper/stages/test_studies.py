@@ -50,7 +50,7 @@ def made_up(shape, cells, seed=7):
 
 
 def saved(folder, shape, bounds, seed=7):
-    """Save made-up chunks, whose cells end at successive `bounds`, and return their files."""
+    """Save made-up chunks from each of `bounds` to the next, and return the chunks' files."""
     paths = []
     for first, last in zip(bounds, bounds[1:], strict=False):
         paths.append(folder / f"{first}-{last}.nc")

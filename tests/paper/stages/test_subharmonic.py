@@ -1,4 +1,4 @@
-"""One-third subharmonic against long runs on both sides of its ends, and its energy balance."""
+"""One-third subharmonic: long runs on both sides of its ends, and its energy balance."""
 
 import numpy as np
 import pytest
@@ -54,7 +54,7 @@ def test_free_subharmonic_ends_where_long_runs_leave_it(free, side):
 
 
 def test_free_subharmonic_is_symmetric_and_balances_its_energy(free):
-    """Half a period later the motion is mirrored; the damping dissipates the work of the force."""
+    """Z1 changes sign after half a period; the damping dissipates the work of the force."""
     state = free.at(1.9)["state"]
     motion = from_strobe(state, None, 1.9, 3)
     half = motion.displacement.values[len(motion.time) // 2 :]
@@ -73,7 +73,7 @@ def assert_energy_balance(motion, frequency):
 
 @pytest.mark.thorough
 def test_damped_subharmonic_is_a_motion_of_period_3(damped):
-    """Some starts on the free subharmonic lead to it when the damper is switched on."""
+    """Some starts on the free subharmonic, with the damper switched on, lead to the damped one."""
     present = np.isfinite(damped.free_subharmonic)
     assert np.array_equal(np.isfinite(damped.switched_share), present)
     row = damped.sel(frequency=1.85, method="nearest")
@@ -89,7 +89,7 @@ def test_damped_subharmonic_is_a_motion_of_period_3(damped):
 
 
 def test_switching_on_keeps_the_primary_on_the_subharmonic_until_a_contact(free):
-    """With walls out of reach the state at T = 0 is one of three states of the free motion."""
+    """With walls out of reach the first strobe state is one of three states of the free motion."""
     p = pack(PAPER, Damper(0.12, 500.0), 1.9)
     state = free.at(1.9)["state"]
     loose = np.tile([0.0, 0.0, 1.0, 2.0], (20, 1))
@@ -102,7 +102,7 @@ def test_switching_on_keeps_the_primary_on_the_subharmonic_until_a_contact(free)
 
 
 def test_no_free_subharmonic():
-    """With heavy damping there is no subharmonic; the frequencies are then those given."""
+    """With heavy damping there is no subharmonic, and the frequencies stay as given."""
     frequencies = np.linspace(1.6, 2.2, 3)
     data = subharmonic_suppression(
         Oscillator(1.0), DAMPER, frequencies, starts=4, settling=Settling()

@@ -1,4 +1,4 @@
-"""The archive of a small run: its crate, its digests, and a job of it that is run again."""
+"""The archive of a small run: its crate, its digests, and a job that is run again."""
 
 import json
 import subprocess
@@ -36,7 +36,7 @@ pytestmark = pytest.mark.workflow
 
 
 def run(folder, *arguments):
-    """Run a program of Python in a folder, and return its end."""
+    """Run a Python program in a folder, and return the completed process."""
     command = [sys.executable, *arguments]
     return subprocess.run(command, cwd=folder, capture_output=True, text=True)
 

@@ -14,7 +14,7 @@ SMALL = configurations.small()
 ALLOWED = re.compile(r"(: must |: name must be |: unknown key; known: \w|: missing; needed )")
 # Keys of numbers that may be zero.
 ZERO_ALLOWED = {"seed", "linear_frequency", "highest_cold", "within", "life_runs", "further"}
-# Keys of machines whose numbers are not physical quantities; all others may have units.
+# Keys of machines whose numbers are not physical quantities. All other numbers may have units.
 NO_QUANTITIES = {"points", "starts", "candidates", "share"}
 
 

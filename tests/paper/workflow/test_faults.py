@@ -1,4 +1,4 @@
-"""Faults of a run that can be tried quickly; `make faults` tries all (tests/faults)."""
+"""Faults of a run that can be tried quickly. `make faults` tries all faults (tests/faults)."""
 
 import os
 import subprocess
@@ -16,7 +16,7 @@ FILE = "results/harmonic_balance/figure_05a.nc"
 KERNELS = "results/kernels.compiled"
 COMPILING = "Compiling the kernels again"
 
-# Code of a job: it opens its log, prints "begun" and runs a statement that is inserted.
+# Code of a job: the job opens its log, prints "begun" and runs an inserted statement.
 JOB = (
     "import sys, time; from types import SimpleNamespace; from chatterjee1995.workflow.job "
     "import Job; "
@@ -76,13 +76,13 @@ def test_a_job_ends_with_its_run(tmp_path):
         while not (log.exists() and log.read_text()):
             time.sleep(0.05)
         run.kill()
-        # The job holds the other end of this pipe, so reading blocks until the job has ended.
+        # The job holds the other end of the pipe `run.stdout`. Reading blocks until the job ends.
         assert run.stdout.read() == ""
 
 
 @pytest.mark.parametrize("kind", ["OSError", "ValueError"])
 def test_what_stops_a_job_is_told(kind, tmp_path):
-    """An error about a file is one line on terminal and log; others are tracebacks in the log."""
+    """A file error is one line on terminal and log, any other error is a traceback in the log."""
     log = job_log(tmp_path)
     command = JOB.format(str(log), f"raise {kind}('a.nc is broken')")
     job = subprocess.run([sys.executable, "-c", command], capture_output=True, text=True)

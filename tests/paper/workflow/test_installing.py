@@ -10,7 +10,7 @@ TOP = Path(__file__).parents[3]
 
 
 def test_the_container_installs_and_calls_what_exists():
-    """The image has a Python that the project allows, and each target of `make` is there."""
+    """The image has a Python that the project allows. The Makefile has each target called."""
     text = (TOP / "Containerfile").read_text()
     (image,) = re.findall(r"^FROM docker\.io/library/python:([\d.]+)-slim", text, re.M)
     project = tomllib.loads((TOP / "pyproject.toml").read_text())["project"]

@@ -20,7 +20,7 @@ from impact_damper.kernel.sources import module_file, sources
 
 pytestmark = pytest.mark.workflow
 
-# Rules with one job each.
+# Regular expression of the rules that have one job.
 ALONE = "chapter_.*|machine_pages|compile_kernels|"
 ALONE += "|".join(name for name, stage in STAGES.items() if stage.together)
 # The rule `compile_kernels` has no inputs.
@@ -32,7 +32,7 @@ def chapters(*names):
     return {f"chapter_{name}" for name in names}
 
 
-# Other values in the configuration, and the jobs that run again after the edit.
+# Edit of a value in the configuration, and the jobs that run again after the edit.
 VALUES = [
     (
         ("curves", "figure_08", "clearance", 1.07),
@@ -134,7 +134,7 @@ def test_an_edit_of_files_concerns_what_runs_them(project, edit):
 
 
 def test_a_configuration_is_checked_again_after_an_edit(project, edit, config):
-    """The check is left out for the configuration of the last complete run alone."""
+    """Only the configuration of the last complete run is not checked again."""
     assert "checked" in json.loads((project / "results/provenance.json").read_text())
     below = config["settling"]["patience"] - 1
     wrong = configurations.changed(config, ["settling", "limit"], below)
@@ -158,8 +158,8 @@ def test_sources_of_a_script_are_what_python_imports(script, config):
         finder.run_script(str(path))
     found = {Path(m.__file__) for m in finder.modules.values() if m.__file__} | set(paths)
     own = sources(*paths, *map(module_file, ("chatterjee1995", "chatterjee1995.workflow.job")))
-    # `sources` omits an `__init__.py` from which no name is imported, and what only it imports,
-    # such as all plots, since it affects no result.
+    # `sources` omits an `__init__.py` from which no name is imported, and modules imported only
+    # there, such as all plots: these files affect no result.
     plots = sources(module_file("impact_damper.plot"))
     assert {path.name for path in found - own - plots} <= {"__init__.py"}
 

@@ -29,7 +29,7 @@ OTHER = "results/branches/free_h150.nc"
 
 
 def checkout(folder):
-    """Return a copy of the project with the stub, in which the kernels count as compiled."""
+    """Return a copy of the project whose scripts are STUB, and whose kernels count as compiled."""
     folder.mkdir()
     for script in (copy_of_project(folder) / "workflow/scripts").glob("*.py"):
         script.write_text(STUB + script.read_text())
@@ -80,7 +80,7 @@ def test_a_checkout_takes_what_another_computed(shared):
 
 
 def test_what_differs_is_not_shared(shared, edit):
-    """Each dataset but the last differs in its source, its parameters, or its name."""
+    """All datasets except the last differ between checkouts, in source, parameters or name."""
 
     def others(text):
         config = yaml.safe_load(text)

@@ -25,7 +25,7 @@ def jobs(result):
     ("arguments", "most"), [((), 110), (("--configfile", "config/smoke.yaml"), 40)]
 )
 def test_every_stage_is_run_for_the_paper_and_in_the_smoke_run(arguments, most, tmp_path):
-    """Every target is known. The number of jobs is limited, because each takes seconds to start."""
+    """Every target is known. The number of jobs is limited: starting a job takes seconds."""
     targets = {"everything", "figures", "tables", *(f"all_{stage}" for stage in STAGES)}
     planned = snakemake(ROOT, *targets, *arguments, "-n", "--directory", tmp_path / "elsewhere")
     found = jobs(planned)

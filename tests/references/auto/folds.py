@@ -27,8 +27,8 @@ AUTO = Path(os.environ.get("AUTO_DIR", "/usr/lib/auto-07p"))
 COMPILER = "gfortran"
 DAMPINGS = (0.215, 0.15, 0.107)
 
-# First orbits, found by direct integration: period in forcing cycles, W, and Z1, Z1' at T = 0 for
-# each damping.
+# First orbits, found by direct integration: period in forcing cycles; W; damping -> Z1 and Z1' at
+# T = 0.
 RESPONSE = 1, 4.0, dict.fromkeys(DAMPINGS, (0.0, 0.0))
 SUBHARMONIC = 3, 1.8, {0.215: (-0.516, -0.232), 0.15: (0.262, 0.122), 0.107: (-0.745, 0.426)}
 
@@ -48,8 +48,8 @@ LOOSE = [
     {"NTST": 200, "NCOL": 5, "EPSU": 1e-7, "EPSS": 1e-6, "DSMAX": 0.03},
     {"NTST": 200, "NCOL": 5, "EPSU": 1e-7, "EPSS": 1e-6, "DSMAX": 0.02},
 ]
-# For each run: the branch, its first orbit, AUTO's stopping condition, the kinds of points stored
-# (None for all), and the settings.
+# Run -> branch, first orbit of the branch, AUTO's stopping condition, kinds of points stored (None
+# for all kinds), settings.
 RUNS = {
     "response_folds": ("response", RESPONSE, "STOP = ['LP2']", {"fold"}, SHARP),
     "response": ("response", RESPONSE, "UZSTOP = {'W': 0.6}", {"symmetry_breaking"}, LOOSE),
@@ -166,9 +166,9 @@ def measured(solution, periods):
 
 
 def found_in(folder, damping, run, settings):
-    """Return the points found with the last of several settings, each with an estimated error.
+    """Return the points found with the last of several settings, with estimated errors.
 
-    The error is the largest difference between the settings, but at least AUTO's tolerance EPSU and
+    An error is the largest difference between the settings, but at least AUTO's tolerance EPSU and
     the last digit that AUTO writes. Folds met a second time on a closed branch are omitted.
     """
     runs = [points(folder, damping, run, setting) for setting in settings]

@@ -1,9 +1,9 @@
 """Motions in 80-bit arithmetic by a C program that shares no code with the package.
 
-State and parameters are those of the kernels: (Z1, Z1', Z2, Z2') and the array from
+As for kernels, the state is (Z1, Z1', Z2, Z2') and the parameters are the array from
 `model.packed.pack`. The program uses Taylor series of order 32 with a local error of 1e-20, and
 isolates events (beginnings and ends of contacts) by the signs of Bernstein coefficients (see
-motion.c). The compiler `cc` compiles it on first use.
+motion.c). The compiler `cc` compiles the program on first use.
 """
 
 import ctypes
@@ -62,13 +62,13 @@ class Run(NamedTuple):
     """One motion; all arrays are long double.
 
     `states`, shape (n, 4), are at the requested times. `extremes`, shape (n, 2), are the smallest
-    and largest Z1 since the time before. `contacts`, shape (k, 5): wall, beginning, end, and Z2' at
-    both, NaN if the contact has not ended; a contact of the first state begins there. `begun`
-    counts contacts without that one. `turnings`, shape (m, 4): extrema of Z2 and the last Z2, each
-    with the time, the nearest wall, the height of Z2 beyond this wall (negative inside the gap),
-    and the largest factor by which an error of an earlier state grows to an error of Z2. `flow` is
-    the derivative of the last state by the first. `growth` is the largest norm, at least 1, of the
-    derivative of the last state by the state at a requested time or an event.
+    and largest Z1 since the time before. `contacts`, shape (k, 5): wall, begin, end, Z2' at the
+    begin, Z2' at the end (NaN before the end). `begun` is the number of contacts that begin after
+    the start. `turnings`, shape (m, 4), has a row for each extremum of Z2 and for the last Z2:
+    time, nearest wall, height of Z2 beyond this wall (negative inside the gap), and the largest
+    factor by which an error of an earlier state grows to an error of Z2. `flow` is the derivative
+    of the last state by the first. `growth` is the largest norm, at least 1, of the derivative of
+    the last state by the state at a requested time or an event.
     """
 
     states: np.ndarray
@@ -81,7 +81,7 @@ class Run(NamedTuple):
 
     @property
     def margin(self):
-        """An error of this size could change the number of contacts."""
+        """Smallest error that could change the number of contacts."""
         return np.min(np.abs(self.turnings[:, 2]) / self.turnings[:, 3], initial=np.inf)
 
 
@@ -91,7 +91,7 @@ def run(p, state, start, times, *, tolerance=1e-20, longest=math.inf, room=100_0
     The first state is in contact if it lies beyond a wall, or on a wall with outward velocity.
     `tolerance` is the local error of a step, relative to the state if this is larger than 1, and
     `longest` the longest step. `room` is the largest number of contacts, and of extrema of Z2. A
-    RuntimeError says that it is too small, or that the program cannot be compiled.
+    RuntimeError says that `room` is too small, or that the program cannot be compiled.
     """
     times = np.atleast_1d(np.asarray(times, Real))
     n, counts = len(times), np.empty(3, np.int64)

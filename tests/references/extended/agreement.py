@@ -1,6 +1,6 @@
 """Errors of the kernels' last states and contact counts against the 80-bit reference.
 
-The kernels are those for one motion and for sixteen motions side by side.
+One kernel computes one motion, the other kernel computes sixteen motions side by side.
 """
 
 import functools
@@ -30,7 +30,7 @@ def scalar(starts, tolerance):
 
 
 def side_by_side(starts, tolerance):
-    """Return the same as `scalar`, computed sixteen motions at a time."""
+    """Return last states (m, 4) and contacts begun (m,), computed sixteen motions at a time."""
     states, contacts = starts.states.copy(), np.empty(len(starts.states), int)
     sides = np.array([side_of(p, y) for p, y in zip(starts.parameters, states, strict=True)])
     ends = starts.times[:, -1].copy()
@@ -46,8 +46,8 @@ class Agreement(NamedTuple):
     """Errors of a kernel for the starts of one kind: arrays of shape (m,).
 
     `error` is the largest error of the last state, divided by the tolerance and by `Run.growth`.
-    `differs` marks another number of contacts. `apart` marks starts with an extremum of Z2 closer
-    to a wall than the tolerance times the growth of an error: a contact cannot be decided.
+    `differs` marks a wrong number of contacts. `apart` marks a start with an extremum of Z2 closer
+    to a wall than the tolerance times the growth of an error: rounding decides about the contact.
     """
 
     error: np.ndarray
@@ -57,7 +57,7 @@ class Agreement(NamedTuple):
 
 @functools.cache
 def starts_and_reference(kind):
-    """Return the starts of a kind, and their reference motions as 80-bit `Run`s."""
+    """Return the starts of a kind, and the 80-bit `Run` of each start."""
     starts = draw(kind, COUNT, SEED)
     return starts, [extended.run(*each) for each in zip(*starts, strict=True)]
 

@@ -47,8 +47,8 @@ def located(kind, family, value, state, phase):
     """Return the parameter of an event, and the residual of the orbit at this parameter.
 
     `kind` is "fold", "symmetry_breaking", "neimark_sacker", "grazing", or "merging" of two contacts
-    with a wall. `family` maps the parameter to packed parameters. `value`, `state` and `phase` are
-    those of an orbit close to the event.
+    with a wall. `family` maps the parameter to packed parameters. `value`, `state` and `phase`
+    describe an orbit close to the event.
     """
     first = _half(family(value), state, phase)
     wall_phase = None

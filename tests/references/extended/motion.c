@@ -11,8 +11,8 @@
    Z2 is kept as its distance from the wall that was touched last. A state on that wall is then
    exactly zero, so that this root can be divided out and cannot hide the next root.
 
-   A contact ends when the depth plus `lag` times its rate falls to zero. If this is at a depth, the
-   wall pushes again once the sum rises to zero before the depth is zero. Friction must be 0. */
+   A contact ends when depth + lag (rate of the depth) falls to zero. If the depth is still positive
+   then, the wall pushes again if this sum rises before the depth is zero. Friction must be 0. */
 
 #include <math.h>
 #include <string.h>
@@ -22,7 +22,7 @@ typedef long double real;
 enum { ORDER = 32, TERMS = ORDER + 1, MOST_ROOTS = ORDER };
 enum { DONE, LOG_FULL, TOO_MANY_STEPS };
 
-/* The members bear the names of the packed parameters, in their order. */
+/* The members have the names and the order of the packed parameters. */
 typedef struct {
     real frequency, damping, stiffness, cubic, force, unbalance, base, clearance,
         contact_stiffness, inverse_mass_ratio, dashpot, lag, gravity, friction;
@@ -94,7 +94,7 @@ static int sign_changes(const real *b)
     return changes;
 }
 
-/* The only root between left and right, by Newton's method kept between these bounds. */
+/* The only root between left and right, by Newton's method. Steps beyond these are bisections. */
 static real refine(const real *c, real left, real right, int rising)
 {
     real slope[TERMS], t = (left + right) / 2;
@@ -113,8 +113,8 @@ static real refine(const real *c, real left, real right, int rising)
 }
 
 /* Roots inside (left, right) in increasing order, at most `most`; b holds the Bernstein
-   coefficients of this interval. Roots that rounding cannot separate are skipped. If the sign has
-   changed after them, `roots` reports a root at the beginning of the next step. */
+   coefficients of this interval. Roots that rounding cannot separate are skipped. If the sign
+   differs after these roots, `roots` reports a root at the beginning of the next step. */
 static int isolate(const real *c, const real *b, real left, real right, real *found, int most)
 {
     int changes = sign_changes(b);
@@ -226,8 +226,8 @@ static void push(const Run *run, const Series *s, int side, real *c)
 }
 
 /* Time of the first event within `length`, or `length` without event; `wall` becomes the wall in
-   contact afterwards, or 0. `left` becomes 1 if the time is that at which Z2 leaves a wall that no
-   longer pushes. */
+   contact afterwards, or 0. `left` becomes 1 if the event is that Z2 leaves a wall which no longer
+   pushes. */
 static real first_event(const Run *run, const Series *s, real length, int *wall, int *left)
 {
     real c[TERMS], found;
@@ -285,7 +285,7 @@ static Matrix product(const Matrix *a, const Matrix *b)
     return c;
 }
 
-/* The norm that belongs to the largest component: the largest sum of a row. */
+/* Sum of the absolute values of a row. The maximum norm of a matrix is its largest such sum. */
 static real row_sum(const real *row)
 {
     return fabsl(row[0]) + fabsl(row[1]) + fabsl(row[2]) + fabsl(row[3]);
@@ -342,8 +342,8 @@ static real growth_of_gap(const Run *run, const real *row)
     return growth;
 }
 
-/* Record an extremum of Z2 = origin + z, or the last Z2, with its height beyond the nearer wall. If
-   the height is small, an error decides whether there is a contact. */
+/* Record an extremum of Z2 = origin + z, or the last Z2, with the height of Z2 beyond the nearer
+   wall. If |height| is small, an error decides whether there is a contact. */
 static void note_turning(Run *run, real t, real z, const real *row)
 {
     int side = run->origin + z < 0 ? -1 : 1;

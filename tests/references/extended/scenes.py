@@ -34,7 +34,7 @@ def configured_scenes():
 
 
 def packed(parameters):
-    """Return the packed parameters from a dict of parameters, as `configured_scenes` yields it."""
+    """Return the packed parameters from a dict of parameters that `configured_scenes` yields."""
     damper = Damper(**pick(Damper, parameters)) if "mass_ratio" in parameters else None
     return pack(Oscillator(**pick(Oscillator, parameters)), damper, parameters["frequency"])
 

@@ -18,7 +18,7 @@ from references import extended
 PERIODS = 2  # forcing cycles of a run
 FAR = 1e3  # a clearance that no motion reaches
 
-# USUAL: ranges of the parameters. KINDS: ranges that replace the usual ones for each kind of start.
+# USUAL: ranges of the parameters. KINDS: kind of start -> ranges that replace ranges in USUAL.
 # A range whose ends have a ratio above 3 is drawn uniformly in the logarithm.
 USUAL = {
     "damping": (0.02, 0.4),
@@ -53,7 +53,7 @@ KINDS = {
     "walls that never pull": {"restitution": (0.05, 0.9), "gravity": (-0.5, 0.5)},
     "narrow gap, never pull": {"clearance": (0.02, 0.1), "restitution": (0.3, 0.9)},
 }
-# Other parameters of the oscillator are drawn one at a time.
+# Each other parameter of the oscillator gets a kind in which only this parameter is added.
 _DRAWN = set(USUAL).union(*KINDS.values())
 KINDS |= {
     each.name: {each.name: (0.1, 3.0)}
@@ -90,7 +90,7 @@ def _parameters(random, ranges, elastic, rule):
 
 
 def _graze(random, p, state, start, end):
-    """Shift Z2 such that an extremum of Z2 without walls would lie 1e-13 to 1e-2 from a wall."""
+    """Shift Z2 such that, without walls, an extremum of Z2 would be 1e-13 to 1e-2 from a wall."""
     unbounded = p.copy()
     unbounded[CLEARANCE] = FAR
     turnings = extended.run(unbounded, state, start, [end]).turnings[:-1]
@@ -105,7 +105,7 @@ def _graze(random, p, state, start, end):
 
 
 def draw(kind, count, seed):
-    """Return starts of one kind, alternately with elastic and inelastic contact.
+    """Return `count` starts of one kind, alternately with elastic and inelastic contact.
 
     Z1, Z1', Z2' are uniform in (-2, 2), (-3, 3), (-4, 4), and Z2 over the gap. Three kinds differ:
     "grazing": an extremum of Z2 lies 1e-13 to 1e-2 inside or beyond a wall. "in contact": Z2 lies
