@@ -3,7 +3,7 @@
 The machine has mass m1, stiffness k, damping c. The absorber has mass m, stiffness ka, damping ca.
 With the angular frequency w, let K = k + i c w - m1 w^2, L = ka + i ca w and q = L/(L - m w^2).
 The absorber's acceleration is q times the machine's acceleration. A force of amplitude F moves the
-machine by F/|K - m w^2 q|. A moving base accelerates m too. This multiplies F by |1 + q m/m1|.
+machine by F/|K - m w^2 q|. A moving base also accelerates m: F is multiplied by |1 + q m/m1|.
 """
 
 import math

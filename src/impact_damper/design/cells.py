@@ -2,8 +2,8 @@
 
 A cell is a gap, a forcing frequency, and a factor for each value that may deviate from its nominal
 value. The record of a motion is the largest displacement that the motion has reached so far.
-A regime is a group of motions of one cell that have not settled. The records in a regime are
-similar. docs/explanation/promise.md says how the displacement of a regime is extrapolated.
+A regime is a group of unsettled motions of one cell with similar records.
+docs/explanation/promise.md says how the displacement of a regime is extrapolated.
 """
 
 from dataclasses import dataclass, fields

@@ -88,7 +88,7 @@ def learn(task, tried, turn, curve, progress=None) -> None:
         k = int(np.argmax(np.where(factors == factor, sizes, -np.inf)))
         curve.put([gap * factor], [sizes[k]], [worst[k]], replace=True)
     if promise.size > SURPRISE * expected:
-        # The search missed a motion between its frequencies, or a motion that few starts reach.
+        # The search missed a motion between two frequencies, or a motion that few starts reach.
         reach = SURPRISE * factors.max()
         near = curve.gaps[(curve.gaps > gap / reach) & (curve.gaps < gap * reach)]
         given = np.unique(worst), starts_needed(task.share), ("compared", 100 + turn), progress

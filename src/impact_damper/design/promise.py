@@ -36,7 +36,7 @@ class Promise:
     bounds : array, shape (cells,)
         Displacement (mm) below which at least the fraction `task.share` of all motions stays.
     peak_known : bool
-        Whether the peaks near the largest peak are known (see PEAK).
+        Whether the peaks of at least NEAR x largest peak are known (see PEAK).
     grows : bool
         Whether the cell with the largest bound has a regime that still grows (`Motions.grows`).
 

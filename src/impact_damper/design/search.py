@@ -53,7 +53,7 @@ class Curve:
         self.sets = [NOMINAL]  # sets of factors with the largest displacements near the best gaps
 
     def put(self, gaps, sizes, worst, *, close=True, replace=False) -> None:
-        """Add displacements. A known gap keeps the larger one, with `replace` the new one."""
+        """Add displacements. A known gap keeps the larger one or, if `replace`, gets the new one."""
         for gap, size, frequency in zip(gaps, np.minimum(sizes, HUGE), worst, strict=True):
             k = int(np.searchsorted(self.gaps, gap * (1 - 1e-9)))
             if k < len(self.gaps) and self.gaps[k] <= gap * (1 + 1e-9):
@@ -180,9 +180,9 @@ def middle_gap(first, last) -> float:
 def score(task, gaps, frequencies, starts, stream, progress=None, sets=(NOMINAL,)) -> tuple:
     """Return three sequences over gaps (mm): displacement (mm), frequency (Hz), set of factors.
 
-    Each gap has the values of its cell with the largest displacement. About (1 - share)/2 of the
-    motions of a cell exceed the cell's displacement. Few starts hardly show how rare large motions
-    are. If rare motions may decide on a gap, the cell is run again with more starts.
+    The results of a gap belong to the cell with the largest displacement. About the fraction
+    (1 - share)/2 of a cell's motions exceed the cell's displacement. If few starts do not show
+    whether a large motion is rare, the cell is run again with more starts.
     """
     conditions = [(f, tuple(each)) for f in frequencies for each in sets]
     cells = [Cell(1e-3 * gap, *each) for gap in gaps for each in conditions]

@@ -34,7 +34,7 @@ EQUIPMENT = ("bare", "damped")
 TOLERANCE = 1e-10
 # SWEEP: the rate of a sweep in Hz/s is SWEEP (damping ratio x natural frequency in Hz)^2. At
 # this rate the resonance peak of a linear machine is 6 % lower than in steady state.
-# MOST_SWEPT: largest number of cycles. A sweep with more cycles at this rate is made faster.
+# MOST_SWEPT: largest number of cycles in a sweep. A longer sweep gets a higher rate instead.
 SWEEP, MOST_SWEPT = 4.0, 6000
 # Largest relative change of the frequency in a forcing cycle.
 STEEPEST = 0.01

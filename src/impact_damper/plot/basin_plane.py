@@ -71,7 +71,7 @@ def _draw_labels(axes, data, colours):
 
 
 def _draw_shares(axes, data, colours):
-    """Shade states by the share of places that lead to the smallest motion; add legend entries."""
+    """Shade each state: share of places of the loose mass that lead to the smallest motion."""
     shades = LinearSegmentedColormap.from_list("shares", [style.WHITE, style.SKY])
     drawn = _fill(axes, data, data["basin_share"][0], cmap=shades, vmin=0, vmax=1)
     words = "share of places of the loose mass"

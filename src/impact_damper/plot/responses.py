@@ -154,7 +154,7 @@ def _draw_motions(axes, motions):
 
 
 def _branch_lines(motions, chosen):
-    """Yield frequencies and displacements for each branch and period, with ends of branches."""
+    """Yield frequencies and displacements of each branch and period, up to the branch's ends."""
     branch, period = motions["branch"].values, motions["period"].values
     names = ("end_branch", "end_direction", "end_value", "end_displacement")
     ends = list(zip(*(motions[name].values for name in names), strict=True))

@@ -331,7 +331,7 @@ def _worse(data, nominal):
 
 
 def _other_mass(data, asked):
-    """Return a better loose mass if this one is not good enough and another is, else None."""
+    """Return a heavier damper that is good enough if this damper is not. Else return None."""
     missed = named(data, "limit_status") == "missed"
     fails = missed or named(data, "decision") == "do_not_build"
     if "other_mass" not in data or not fails:
