@@ -1,8 +1,8 @@
 """Basins of attraction in a plane of states, and the robustness of attractors against shocks.
 
 Without a damper the boundaries of basins are stable manifolds of unstable orbits. A manifold is
-computed backwards in time, because nearby curves then approach it and errors decrease. It is
-followed where |Z1| and |Z1'| are below `reach`, and stored where they are below `window`.
+computed backwards in time, because nearby curves then approach the manifold and errors decrease. It
+is followed where |Z1| and |Z1'| are below `reach`, and stored where both are below `window`.
 The names *convergence time*, *finite-time basin stability* and *minimal critical shock* come from
 Attractors.jl, version 2 (StabilityQuantifiersAccumulator).
 """
@@ -39,9 +39,9 @@ from impact_damper.orbits.shooting import find_orbit
 WIDTH = 1.5
 # Number of states on each axis of the grid of first guesses for unstable orbits.
 NEWTON = 16
-# The search for further attractors begins at TRIED to 2 TRIED unresolved states (at all if fewer).
+# A search for further attractors begins at TRIED or more unresolved states, or at all if fewer.
 TRIED = 64
-# Default places Z2/d0 of the loose mass. Each state of the plane is run from each place.
+# Default places Z2/d0 of the loose mass. Each state (Z1, Z1') of the plane is run with each place.
 PLACES = (-0.8, -0.4, 0.0, 0.4, 0.8)
 CELLS_RANGE = {"least": 2, "most": 10**4}
 
@@ -115,14 +115,14 @@ def basins(
     -------
     xarray.Dataset
         For each state of the grid: the number of the attractor, or a negative flag that says why
-        there is none; and the convergence time: forcing cycles until the attractor is known, or -1.
+        there is no attractor; and the convergence time in forcing cycles, -1 without an attractor.
         For each attractor: the period, the largest displacement, Z1 and Z1' at `phase`, and
 
-        - the share of states that lead to the attractor, and their median convergence time;
+        - the share of states that lead to the attractor, and these states' median convergence time;
         - the longest convergence time after `shock`, infinite if a motion does not return;
         - the finite-time basin stability: the share of states that lead there in `within` cycles;
-        - the minimal critical shock: the smallest impulse at the phase of the plane after which the
-          motion does not return. The first 256 impulses tried end at the plane's largest speed.
+        - the minimal critical shock: the smallest impulse at `phase` after which the motion does
+          not return. Impulses are tried up to the largest |Z1'| of the plane.
 
         Without a damper also: unstable orbits with the periods of the attractors, and the stable
         manifolds of these orbits, which are the boundaries of basins.
@@ -190,7 +190,7 @@ def _sides(scales, sizes, displacement, velocity):
 
 
 def _free(p, plane, window, reach, phase, cells, settling, running):
-    """Return the dataset's variables without a damper, and the plane's states as `Labelled`."""
+    """Label the states of a plane without a damper; return dataset variables and a `Labelled`."""
     attractors = free_attractors(p, reach / 2, settling)
     limits = settling.tolerance, settling.limit
     labels, periods = label_states(p, plane, phase, attractors, *limits, **running)
@@ -217,7 +217,7 @@ def _free(p, plane, window, reach, phase, cells, settling, running):
 
 
 def boundary_data(p, attractors, window, reach, phase, cells, settling):
-    """Return the variables of the unstable orbits and of their stable manifolds."""
+    """Return the dataset variables of unstable orbits and of the orbits' stable manifolds."""
     # Unstable orbits lie closer together near the origin, so the grid is finer there.
     even = np.linspace(-1, 1, NEWTON)
     grid = [half * even * np.abs(even) for half in reach / 2]
@@ -245,7 +245,7 @@ def boundary_data(p, attractors, window, reach, phase, cells, settling):
 
 
 def _damped(p, plane, damper, phase, cells, loose, settling, running):
-    """Return the dataset's variables with a damper, and the plane's states as `Labelled`."""
+    """Label the states of a plane with a damper; return dataset variables and a `Labelled`."""
     if loose is None:
         places = [(place * damper.clearance, 0.0) for place in PLACES]
     else:
@@ -268,7 +268,7 @@ def _damped(p, plane, damper, phase, cells, loose, settling, running):
 
 
 def _attractor_data(p, found, phase):
-    """Return the variables of the attractors in a `Labelled`."""
+    """Return the dataset variables of the attractors in a `Labelled`."""
     records = found.records
     shares = [np.mean(found.labels == index) for index in range(len(records))]
     points = np.full((len(records), max(records["period"], default=1), 2), np.nan)
@@ -284,13 +284,13 @@ def _attractor_data(p, found, phase):
     }
 
 
-# Distance from the saddle at which a manifold begins, in units of Z1 and Z1'.
+# Dimensionless distance from a saddle (an unstable orbit) at which its manifold begins.
 NEAR = 1e-5
-# Limits for one side of a manifold. MOST_PERIODS: forcing cycles. MOST_POINTS: points within the
-# window. MOST_IN_ALL: points within the reach. MOST_HALVINGS: halvings of an interval in one cycle.
+# Limits for one side of a manifold. MOST_PERIODS: forcing cycles. MOST_POINTS: points in `window`.
+# MOST_IN_ALL: points within `reach`. MOST_HALVINGS: halvings of an interval in one forcing cycle.
 MOST_PERIODS, MOST_POINTS, MOST_IN_ALL, MOST_HALVINGS = 60, 40_000, 100_000, 12
 FIRST_POINTS = 33
-# Largest distance of neighbouring points outside the window, divided by the reach.
+# Largest distance between neighbouring points of a manifold outside `window`, divided by `reach`.
 OUTSIDE = 0.01
 # Largest difference between the states of equal orbits.
 SAME = 1e-6
@@ -315,7 +315,7 @@ def saddles(p, states, periods, phase):
 
 
 def run_backwards(p, states, phase, tolerance, reach):
-    """Return the states one forcing cycle before `states`, NaN for `states` beyond the reach.
+    """Return the states one forcing cycle before `states`; NaN for `states` outside `reach`.
 
     If time runs backwards, the velocity and the damping change their signs in the equation.
     """
@@ -336,11 +336,11 @@ def run_backwards(p, states, phase, tolerance, reach):
 
 
 def stable_manifold(orbit, tolerance, window, spacing, reach):
-    """Return a list of the pieces of a saddle's stable manifold, and whether they are complete."""
+    """Return a list of the pieces of a saddle's stable manifold, and whether it is complete."""
     values, vectors = np.linalg.eig(orbit.monodromy[:2, :2])
     k = int(np.argmin(np.abs(values)))
     direction = vectors[:, k].real / np.linalg.norm(vectors[:, k].real)
-    # With a negative multiplier, a point comes back to the same side only after two periods.
+    # If the multiplier is negative, a point returns to its side of the saddle after two periods.
     growth = 1 / abs(values[k].real) ** (1 if values[k].real > 0 else 2)
     given = growth, tolerance, window, spacing, reach
     sides = [_grow(orbit, side * direction, *given) for side in (-1, 1)]
@@ -348,7 +348,7 @@ def stable_manifold(orbit, tolerance, window, spacing, reach):
 
 
 def _grow(orbit, direction, growth, tolerance, window, spacing, reach):
-    """Return the same as `stable_manifold`, but for one side of the saddle."""
+    """Return the results of `stable_manifold` for the side of the saddle in `direction`."""
 
     def earlier(states):
         return run_backwards(orbit.p, states, orbit.phase, tolerance, reach)
@@ -380,7 +380,7 @@ def _grow(orbit, direction, growth, tolerance, window, spacing, reach):
 
 
 def _wide(states, window, spacing, reach):
-    """Return a mask of the pairs of neighbouring states between which a state is missing."""
+    """Return the mask of the pairs of neighbouring states that are too far apart."""
     apart = np.abs(np.diff(states, axis=0))
     inside = np.all(np.abs(states) <= window + 2 * spacing, axis=1)
     near = np.all(np.abs(states) <= reach, axis=1)
@@ -396,7 +396,7 @@ SHOCKS = (256, 64, 64, 64)
 
 
 def robustness(p, found, phase, widest, shock, within) -> dict:
-    """Return the variables of the robustness of attractors. A shock is a jump of Z1'."""
+    """Return the dataset variables of the robustness of attractors. A shock is a jump of Z1'."""
     rows = []
     for index, record in enumerate(found.records):
         own, states, returned = found.labels == index, orbit_states(p, record, phase), np.nan
@@ -412,7 +412,7 @@ def robustness(p, found, phase, widest, shock, within) -> dict:
 
 
 def _after(found, index, states, shocks):
-    """Return for each shock whether it leads away, and after how many cycles this is known."""
+    """Return for each shock whether it leads to another motion, and the cycles until known."""
     pushed = np.repeat(states, len(shocks), axis=0)
     pushed[:, 1::2] += np.tile(shocks, len(states))[:, None]
     labels, periods = (each.reshape(len(states), -1) for each in found.label(pushed))
@@ -420,7 +420,7 @@ def _after(found, index, states, shocks):
 
 
 def _critical(found, index, states, most):
-    """Return the size of the smallest shock between 0 and `most` that leads away, or infinity."""
+    """Return the smallest |shock| from 0 to |most| that leads to another motion, or infinity."""
     low, high = 0.0, most
     for parts in SHOCKS:
         shocks = np.linspace(low, high, parts + 1)

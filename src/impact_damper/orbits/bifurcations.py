@@ -1,6 +1,6 @@
 """Locate bifurcations (zeros of test functions) and changes of contact on a step of a branch.
 
-The place of an event is its distance along the step's first tangent or, in a grazing, its height.
+The place of an event is the distance along the first tangent, in a grazing the extremum's height.
 """
 
 from functools import partial
@@ -18,9 +18,9 @@ FINE = 1e-3
 PLACE = 1e-12
 # A multiplier counts as complex if the modulus of its imaginary part exceeds COMPLEX.
 COMPLEX = 1e-6
-# If all multipliers at a bifurcation have moduli below 1 + NEAR_CIRCLE, one side may be stable.
+# Orbits beside a bifurcation may be stable if no multiplier has a modulus above 1 + NEAR_CIRCLE.
 NEAR_CIRCLE = 1e-3
-# Longest flight, in forcing cycles, between two merging contacts with the same wall.
+# Longest flight, in forcing cycles, between two contacts with one wall that merge.
 MERGED = 1e-3
 # Largest number of changes of contact that are located on one step.
 MOST_CHANGES = 8
@@ -31,8 +31,8 @@ PAIRS = {count: np.triu_indices(count, 1) for count in (2, 4)}
 class Event(NamedTuple):
     """An event of a branch, with the walls touched (`Orbit.sequence`) before and after the event.
 
-    At a grazing a contact appears or vanishes in flight. At a merging two contacts with one wall
-    become one, or one contact parts in two. The other kinds are the keys of TESTS.
+    Kind "grazing": a contact appears or vanishes in flight. Kind "merging": two contacts with one
+    wall become one contact, or one contact parts in two. Further kinds: the keys of TESTS.
     """
 
     kind: str
@@ -42,10 +42,10 @@ class Event(NamedTuple):
 
 
 def _reversal(point, symmetric):
-    """Return the `_product` of mu + 1 over all `cycle_multipliers` mu of the orbit.
+    """Return the `_product` of mu + 1 over all `cycle_multipliers` mu of the orbit, or 1.
 
     At mu = -1 a symmetric orbit (`sign` -1) loses its symmetry, and any other orbit doubles its
-    period. Return 1 for asymmetric orbits if `symmetric` is true, for symmetric orbits if false.
+    period. If `symmetric`, return 1 for asymmetric orbits; otherwise return 1 for symmetric orbits.
     """
     orbit = point.orbit
     return _product(orbit.cycle_multipliers + 1) if (orbit.sign < 0) == symmetric else 1.0
@@ -63,9 +63,9 @@ def _product(values):
     return float((values / np.maximum(1, np.abs(values))).prod().real)
 
 
-# For each kind of bifurcation: a function of a point, which is zero at the bifurcation; and the
-# largest tolerance of the place. The tolerance is larger at a fold: Newton's method is nearly
-# singular there, and the parameter changes only with the square of the distance from the fold.
+# For each kind of bifurcation: a function of a point that is zero at the bifurcation, and the
+# largest tolerance of the place. The tolerance is larger at a fold. Newton's method is nearly
+# singular at a fold, and the parameter changes only with the square of the distance from the fold.
 TESTS = {
     "fold": (lambda point: point.tangent[-1], 1e-7),
     "symmetry_breaking": (partial(_reversal, symmetric=True), 1e-11),
@@ -75,7 +75,7 @@ TESTS = {
 
 
 def bifurcations_between(point_at, start, end, first, last):
-    """Return pairs (place, event) of bifurcations between two points, and how many are missed."""
+    """Return pairs (place, event) of bifurcations between two points, and the number missed."""
     located, lost = [], 0
     for kind, (test, precision) in TESTS.items():
         if test(start) * test(end) >= 0:
@@ -161,7 +161,7 @@ def _changes_of_contact(point_at, start, end, length):
 
 
 def _contact_event(orbit):
-    """Return the kind of the event at which the slowest contact of an orbit appears."""
+    """Return the kind of event, merging or grazing, at which an orbit's slowest contact appears."""
     contacts = orbit.contacts
     k = int(np.argmin(np.abs(contacts[:, 3])))
     period = 2 * np.pi / orbit.p[FREQUENCY]

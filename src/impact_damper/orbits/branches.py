@@ -11,26 +11,26 @@ from impact_damper.orbits.bifurcations import Event, bifurcations_between, event
 from impact_damper.orbits.grazing import through_grazing
 from impact_damper.orbits.segments import NUDGE
 
-# Largest number of orbits in one direction.
+# Largest number of orbits of a branch in one direction of the parameter.
 MOST_POINTS = 10_000
 # Largest difference between the states of equal orbits at W T = pi/2.
 SAME = 1e-5
-# A step may hold an orbit only if the orbit's max |Z1| differs from that at the step's beginning by
-# at most NEARBY plus the change of max |Z1| on the step.
+# An orbit can lie on a step only if max |Z1| of the orbit and max |Z1| at the step's beginning
+# differ by at most NEARBY plus the change of max |Z1| on the step.
 NEARBY = 0.02
-# Packed parameters are extrapolated at most by EXTENDED beyond the range of the parameter.
+# Packed parameters are extrapolated to parameters at most EXTENDED beyond the parameter's range.
 EXTENDED = 1e-3
 # A branch has lost its contacts if all contacts of its last orbit begin at speeds below WEAK.
 WEAK = 0.02
-# At a fold a branch meets a branch of more symmetry (symmetric orbits, or half the period) if
-# `Orbit.deviation` is below VANISHED times the deviation at the point before.
+# A fold is a meeting with a branch of more symmetry (symmetric orbits, or half the period) if
+# `Orbit.deviation` at the fold is below VANISHED times the deviation at the point before.
 VANISHED = 0.5
-# A grazing is searched for after a step that changes contacts, or that fails and is shorter than
-# CLOSE_STEP. If none is found, a longer step that changes contacts is halved. REACH: largest
-# distance searched, divided by the length of the step.
+# CLOSE_STEP: a grazing is searched for if a step changes contacts, or if a step shorter than this
+# fails. If no grazing is found, a step longer than CLOSE_STEP that changes contacts is halved.
+# REACH: largest distance of the grazing, divided by the length of the step.
 CLOSE_STEP, REACH = 2e-3, 8.0
-# A step longer than CLEAR_STEP is halved if an event on it was not located, or if the step may
-# contain two folds or cross another branch.
+# A step longer than CLEAR_STEP is halved if an event on the step was not located, or if the step
+# may contain two folds or cross another branch.
 CLEAR_STEP = 1e-4
 
 
@@ -38,11 +38,11 @@ CLEAR_STEP = 1e-4
 class Branch:
     """A branch of orbits. The function `family` maps the parameter to packed parameters.
 
-    Each of `events` is a pair: the index of a point, and its event. `ends` are the reasons why the
-    branch ends at its first and at its last point: range_ends (of the parameter); closed (curve);
-    symmetry_breaking or period_doubling, if the branch meets a branch of more symmetry;
-    contact_lost; lost, if Newton's method fails; point_limit (MOST_POINTS); or unstable, after too
-    many unstable orbits in a row. `lost` is the number of events that could not be located.
+    `events` holds pairs: the index of a point, and the event there. `ends` holds the reasons why
+    the branch ends at its first and at its last point: range_ends (end of the parameter's range);
+    closed (curve); symmetry_breaking or period_doubling (meeting with a branch of more symmetry);
+    contact_lost; lost (Newton's method fails); point_limit (MOST_POINTS); unstable (too many
+    unstable orbits in a row). `lost` is the number of events that could not be located.
     """
 
     family: Callable[[float], np.ndarray]
@@ -86,7 +86,7 @@ def between(point, ahead, value):
 
 
 def follow_branch(family, orbit, value, span, beyond=np.inf) -> Branch:
-    """Follow a branch both ways, to where more than `beyond` orbits in a row are unstable."""
+    """Follow a branch in both directions, until more than `beyond` orbits in a row are unstable."""
     family = _extended(family, span)
     problem = continuation.Problem.of(family, orbit)
     x, walks = problem.unknowns(orbit, value), []
@@ -109,7 +109,7 @@ def follow_branch(family, orbit, value, span, beyond=np.inf) -> Branch:
 
 
 def _extended(family, span):
-    """Return a function like `family` that extrapolates linearly to parameters beside `span`."""
+    """Return the function `family`, extrapolated linearly to parameters just outside `span`."""
 
     def extended(value):
         try:
@@ -127,7 +127,7 @@ def _extended(family, span):
 
 
 def _walk(problem, first, span, beyond) -> Branch:
-    """Follow a branch from `first` along its tangent; return a `Branch` with "" as `ends[0]`."""
+    """Follow a branch from a point along its tangent; return a `Branch` with "" as `ends[0]`."""
     points, events, lost, end, idle = [first], [], 0, "", 0
     if (first.value - span[0]) * (first.value - span[1]) >= 0:
         outward = np.sign(first.value - sum(span) / 2) * first.tangent[-1] > 0
@@ -175,8 +175,8 @@ def _walk(problem, first, span, beyond) -> Branch:
 def _next_pieces(point, span, length, search):
     """Return the pieces of the next step (see `_through_grazing`), [] if the step must be shorter.
 
-    Also return the factor from the length of this step to the length of the next attempt, and
-    whether a grazing was searched for. If `search` is false, no grazing is searched for.
+    Also return the ratio of the next step's length to this step's length, and whether a grazing was
+    searched for. If `search` is False, no grazing is searched for.
     """
     ahead, factor = continuation.next_point(point, span, length)
     changes = ahead is not None and ahead.orbit.sequence != point.orbit.sequence
@@ -205,8 +205,8 @@ def _next_pieces(point, span, length, search):
 def _ending(piece, first, span):
     """Return why a branch ends on a piece ("" if it goes on), and the events before this end.
 
-    Also return whether a meeting with a branch of more symmetry was not located. `first` is the
-    first point of the branch, or None if the branch has too few points to be closed.
+    Also return whether a meeting with a branch of more symmetry was missed. `first` is the first
+    point of the branch, or None if the branch has too few points to be closed.
     """
     start, ahead, located, missed = piece
     met = None
@@ -248,7 +248,7 @@ def _meeting(events, orbit):
     """Return the index of the event at which a branch meets a branch of more symmetry, or None.
 
     The meeting is a fold of the branch at which `Orbit.deviation` vanishes. The deviation can also
-    reverse without a meeting. If no fold was located, the meeting is lost: return len(events).
+    change its sign without a meeting. If no fold was located, return len(events).
     """
     folds = [k for k, event in enumerate(events) if event.kind == "fold"]
     least = VANISHED * np.max(np.abs(orbit.deviation))

@@ -1,4 +1,4 @@
-"""Largest displacement as a function of the clearance, and its minimum (figures 6, 7 and 11)."""
+"""Largest displacement and its minimum over the clearance (figures 6, 7 and 11 of the paper)."""
 
 from dataclasses import replace
 
@@ -52,8 +52,8 @@ def clearance_sweep(
     frequency : float
         Forcing frequency W, or Hz for a machine.
     clearances : sequence of float
-        Increasing clearances d0 on each side of the loose mass. For a machine they are values of
-        the full play in m, like `gap` in `Machine.damper`, and so are the clearances of the result.
+        Increasing clearances d0. For a machine: increasing gaps (full play) in m, as `gap` in
+        `Machine.damper`. The coordinate `clearance` of the result then holds gaps too.
     method : str
         "simulated" finds the motions. "harmonic_balance" finds none: the result has only the
         amplitude and the optimum by equation (7), and the clearances by rules (18) and (19).
@@ -63,14 +63,14 @@ def clearance_sweep(
     Returns
     -------
     xarray.Dataset
-        For each (clearance, motion): a motion, as in `frequency_response`. For each `clearance`:
+        For each (clearance, motion): the variables of `frequency_response`. For each `clearance`:
         max |Z1| of the quiet motion (period 1, symmetric, two contacts), max |Z1| of all motions to
         which starts lead, and the amplitude of the smallest stable solution of (7). Scalars: the
-        optimum clearance of the quiet motion and its kind; the optimum by (7); the clearances by
-        rules (18) and (19), of which (19) is NaN if the response without a damper has no peak; the
-        ratio rm W^2 d0/f at the optimum, and the ratio that the theory of straight flight gives.
-        For each `edge`: the least and the greatest clearance around the optimum at which max |Z1|
-        of the quiet motion is within 10 % of its minimum.
+        clearance with the smallest quiet motion (the optimum) and the kind of this minimum; the
+        optimum by (7); the clearances by rules (18) and (19), NaN for (19) without a resonance
+        peak; rm W^2 d0/f at the optimum, with the amplitude f of the forcing, and this ratio by the
+        theory of straight flight. For each `edge`: the end of the range of clearances around the
+        optimum in which max |Z1| of the quiet motion is within 10 % of its minimum.
 
     Raises
     ------
@@ -154,8 +154,8 @@ def _peak_rule(oscillator, mass_ratio):
 def _quiet_motions(data, clearances, rule):
     """Return the state and max |Z1| of the quiet motion at each clearance, and an index or None.
 
-    The index is that of the clearance with a quiet motion that is closest to `rule`. At other
-    clearances only motions of the same branch are quiet. Without a quiet motion max |Z1| is NaN.
+    The index points to the clearance closest to `rule` at which a quiet motion exists. At other
+    clearances only motions on the branch of this motion count. Without one max |Z1| is NaN.
     """
     names = "outcome period contacts asymmetry maximum_displacement branch state"
     table = {name: data[name][1] for name in names.split()}
@@ -171,7 +171,7 @@ def _quiet_motions(data, clearances, rule):
 
 
 def _stable_part(p, state, span):
-    """Return clearances of a branch's stable part, max |Z1| there, and max |Z1| as a function."""
+    """Return clearances (n,) on a branch's stable part, max |Z1| (n,), and max |Z1| as function."""
 
     def family(clearance):
         changed = p.copy()
@@ -246,7 +246,7 @@ def _stationary(size_at, best):
 def _kind(size_at, best, least, longest):
     """Return "smooth" or "kink", the kind of the minimum of max |Z1| at the clearance `best`.
 
-    If the distance from the minimum is halved, the rise falls to a quarter (smooth) or half (kink).
+    At half the distance from the minimum max |Z1| has risen a quarter (smooth) or half (kink).
     """
     steps = longest, longest / 2
     rises = [size_at(best + step) + size_at(best - step) - 2 * least for step in steps]

@@ -23,7 +23,7 @@ NEWTON, LARGEST = 10, 0.5
 # - The correction before the last one is below SURE.
 # - The derivative by the parameter is new, and the last correction is below CLOSE.
 # - The derivative is new. The last correction is below ROUNDING and above half the one before.
-# With a larger residual, a correction above SURE must not exceed SHRINKING times the one before.
+# Without convergence, a correction above SURE must not exceed SHRINKING times the one before.
 CLOSE, ROUNDING, SURE, SHRINKING = 1e-10, 1e-4, 1e-6, 0.7
 # The derivative by the parameter is expensive. It is updated only if the last correction is below
 # REFINED and the sum of the corrections since the last update exceeds UNMOVED.
@@ -39,8 +39,8 @@ LONGEST, LONGEST_UNSTABLE, SMALLEST = 0.02, 0.06, 0.05
 # Largest distance of the first guess of `Problem.at_value` from the given point. A farther guess
 # near a fold could be a state so large that its integration takes minutes.
 FARTHEST_GUESS = 0.08
-# ASIDE: largest distance of a point from its first guess, divided by the step. Farther points may
-# lie on another branch. The first correction must be below FAILING times this distance.
+# ASIDE: largest distance of a point from its first guess, divided by the step. A farther point may
+# lie on another branch. FAILING: largest first correction, divided by this largest distance.
 ASIDE, FAILING = 0.2, 2.0
 
 
@@ -49,7 +49,7 @@ class Point(NamedTuple):
 
     The unknowns `x` are the first states of the segments, each with n = 4 components (without a
     damper n = 2: Z1, Z1'), and the parameter `value`. The `tangent` has the length 1 in the metric
-    of the `problem`. `bend` and `twist` are its first and second derivative along the branch.
+    of `problem`. `bend` and `twist` are the tangent's first and second derivative along the branch.
     """
 
     value: float
@@ -65,13 +65,13 @@ class Point(NamedTuple):
 class Problem:
     """The equations for the orbits of a branch: each segment ends where the next one begins.
 
-    In the metric, the squared distance of two points is the sum of the squared distance of their
-    states, averaged over the segments, and the squared difference of the parameter.
+    In the metric, the squared distance of two points is the squared difference of their parameters
+    plus the squared distance of their states, averaged over the segments.
 
-    The function `family` maps the parameter to packed parameters. `loose` is Z2 - Z1 and Z2' - Z1',
-    constant without a damper. If `symmetric`, the segments cover half the period and all orbits are
-    symmetric. Such equations are regular where an orbit loses its symmetry. `rough` is the largest
-    norm of a segment's derivative after the last `recut` into several segments, otherwise 0.
+    The function `family` maps the parameter to packed parameters. `loose` is (Z2 - Z1, Z2' - Z1'),
+    constant without a damper. If `symmetric`, the segments cover half the period, all orbits are
+    symmetric, and the equations are regular where an orbit loses its symmetry. `rough` is the
+    largest norm of a segment's derivative after the last `recut` into segments, 0 for one segment.
     """
 
     family: Callable[[float], np.ndarray]
@@ -105,7 +105,7 @@ class Problem:
 
     @property
     def sign(self):
-        """`Orbit.sign` of the orbits."""
+        """`Orbit.sign` of all orbits of the problem."""
         return -1 if self.symmetric else 1
 
     @property
@@ -115,7 +115,7 @@ class Problem:
 
     @cached_property
     def metric(self):
-        """Weights w, shape (m n + 1,); the squared distance is the sum of w (difference of x)^2."""
+        """Weights w, shape (m n + 1,). The squared distance is the sum of w (difference of x)^2."""
         m = len(self.phases) - 1
         return np.append(np.full(m * self.size, 1 / m), 1.0)
 
@@ -237,7 +237,7 @@ def point_at_value(point, ahead, value):
     def beyond(fraction):
         return _cubic(point, ahead, fraction)[-1] - value
 
-    # The value of one of the points may lie beyond this point by a rounding error.
+    # By a rounding error, `value` may lie just outside the values of the two points.
     ends = beyond(0.0), beyond(1.0)
     inside = ends[0] * ends[1] < 0
     fraction = brentq(beyond, 0.0, 1.0) if inside else float(np.argmin(np.abs(ends)))
@@ -264,17 +264,17 @@ def _cubic(point, ahead, fraction):
     return point.x + fraction * length * point.tangent + bent
 
 
-# A step beyond one of these bounds may lead to another branch and is not accepted. TURNED: angle,
-# radian, between the tangents at both points. SKEW: length of the difference between the unit
-# vectors along the chord and along the mean tangent.
+# A step above one of these bounds may lead to another branch and is not accepted. TURNED: angle,
+# radian, between the tangents at the step's ends. SKEW: length of the difference between the unit
+# vector along the chord and the unit vector along the mean tangent.
 TURNED, SKEW = 0.5, 0.03
-# AIM: a step aims at AIM TURNED and AIM^2 SKEW. GROWTH: largest ratio of a step to the step before.
-# SHRINKAGE: smallest ratio of a step to the step before, if that was not accepted.
+# AIM: a step aims at AIM x TURNED and AIM^2 x SKEW. GROWTH: largest ratio of a step to the step
+# before. SHRINKAGE: smallest ratio of a step to a step before it that was not accepted.
 AIM, GROWTH, SHRINKAGE = 0.65, 1.5, 0.3
 
 
 def next_point(point, span, length):
-    """Return the next point within `span`, or None, and the factor for the next step's length."""
+    """Return the next point within `span`, or None, and the next step's length over `length`."""
     problem = point.problem
     bent = length**2 / 2 * point.bend + length**3 / 6 * point.twist
     ahead = problem.near(point.x + length * point.tangent + bent, point.tangent, length)
@@ -315,9 +315,9 @@ def folds_twice(point, ahead):
     return first * (first - middle**2 / (4 * bend)) < 0
 
 
-# Bounds within which an orbit keeps its several segments. NEAR_SECTION: smallest distance of a cut
-# from a contact, radian. ROUGHER: largest norm of a segment's derivative, divided by
-# `Problem.rough`. MILD: smallest `Orbit.amplification`, divided by AMPLIFYING.
+# An orbit keeps its several segments within these bounds. NEAR_SECTION: smallest distance of a
+# segment's beginning from a contact, radian. ROUGHER: largest norm of a segment's derivative,
+# divided by `Problem.rough`. MILD: smallest `Orbit.amplification`, divided by AMPLIFYING.
 NEAR_SECTION, ROUGHER, MILD = 0.02, 4.0, 0.5
 
 
@@ -334,7 +334,7 @@ def holds_still(point):
 
 
 def recut(point, between=()):
-    """Return the point with new segments or a single one, unchanged if Newton's method fails."""
+    """Return the point with new segments, or the old point if Newton's method fails."""
     before, orbit = point.problem, point.orbit
     phases, rough = segments.cut(orbit, before.cycle, between), 1.0
     if not between and orbit.amplification <= AMPLIFYING:

@@ -1,6 +1,6 @@
 """Follow a branch through a grazing, at which a contact appears, vanishes, or parts in two.
 
-At a grazing an extremum of Z2 reaches its wall, and the branch turns sharply. The height of the
+At a grazing an extremum of Z2 reaches a wall, and the branch turns sharply. The height of the
 extremum is |Z2| - d0. Except for a term of the power 3/2, an orbit depends smoothly on the height.
 """
 
@@ -14,21 +14,21 @@ from impact_damper.orbits import segments
 from impact_damper.orbits.continuation import NEWTON, Point, recut
 from impact_damper.orbits.segments import list_turns, slopes_of_ends
 
-# Moduli of heights on the side with more contacts grow by the factor RATIO, from LEAST up to MOST.
+# Heights of points on the side with more contacts have the moduli LEAST x RATIO^k, up to MOST.
 RATIO, LEAST, MOST = 10.0, 1e-13, 2e-5
-# HALVINGS: most divisions of failed steps on the way through a grazing. HALVINGS_BETWEEN: most
-# divisions between two points of the way.
+# HALVINGS: largest number of divisions of failed steps through a grazing. HALVINGS_BETWEEN: largest
+# number of divisions between two points.
 HALVINGS, HALVINGS_BETWEEN = 8, 3
-# A step that reduces `Orbit.deviation` to less than FALLEN times its size leads to another branch.
+# A step after which `Orbit.deviation` is below FALLEN times its old size leads to another branch.
 FALLEN = 0.01
-# Heights of points on the side with fewer contacts.
+# Moduli of heights of points on the side with fewer contacts.
 BESIDE = 1e-9, 2e-5
-# Corrections must be below LARGEST. The final error of a height is below CLOSE height + ROUNDING.
+# Corrections must be below LARGEST. The last error of a height is below CLOSE x height + ROUNDING.
 LARGEST, CLOSE, ROUNDING = 0.5, 1e-4, 1e-14
 
 
 def at_height(problem, x, turn, height, direction):
-    """Return the point near x at which an extremum has a height, and the `Turn` there; or None."""
+    """Return the point near x at which the extremum `turn` has a `height`, and the `Turn` there."""
     x = x.copy()
     for _ in range(NEWTON):
         orbit = problem.shoot(x)
@@ -53,7 +53,7 @@ def at_height(problem, x, turn, height, direction):
 
 
 class Passage(NamedTuple):
-    """Points of a branch through a grazing, with height and `Turn` of the extremum at each point.
+    """Points of a branch through a grazing, each with height and `Turn` of the grazing extremum.
 
     `grazing` is the index of the point closest to the grazing, on the side with more contacts.
     `kind` is "grazing", or "merging" if a contact parts in two or two contacts become one.
@@ -146,7 +146,7 @@ def _before(height, target):
 
 
 def _targets(height, sharp, direction):
-    """Return a list of the heights of points, from one side of a grazing to the other."""
+    """Return the heights of the points on the way through a grazing, in the order of the way."""
     fine = LEAST * RATIO ** np.arange(1 + int(np.log(MOST / LEAST) / np.log(RATIO)))
     if direction == sharp:
         return list(sharp * fine)
@@ -189,7 +189,7 @@ def turns_of(orbit):
 def with_gradient(problem, x, orbit, turn):
     """Return an extremum with its gradient. The array `x` holds the unknowns of the orbit.
 
-    Z2' is zero at the extremum, so a small shift of its phase does not change the height.
+    Z2' is zero at the extremum, so a small shift of the phase does not change the height.
     """
     k, rate = turn.segment, problem.rate(x[-1])
     phases, begin = np.array([orbit.phases[k], turn.phase]), orbit.states[k]
@@ -203,7 +203,7 @@ def with_gradient(problem, x, orbit, turn):
 
 
 def nearest(turns, turn):
-    """Return the extremum closest in phase to `turn`, if possible of the same kind, or None."""
+    """Return the extremum closest in phase to `turn`, if possible with equal `outer`, or None."""
     near = [each for each in turns if each.segment == turn.segment]
     near = [each for each in near if abs(each.phase - turn.phase) < MOVED]
     near = [each for each in near if each.outer == turn.outer] or near

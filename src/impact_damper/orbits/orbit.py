@@ -22,18 +22,18 @@ from impact_damper.orbits.segments import flow_all
 
 # Length of a forcing cycle as a phase, radian.
 TURN = 2 * math.pi
-# Largest residual of a converged orbit, divided by max(1, largest component of its states). With
-# contacts it is at least STIFF_RESIDUAL times their frequency, which multiplies rounding errors.
+# Largest residual of a converged orbit over max(1, largest component of a state): RESIDUAL; with
+# contacts the larger of RESIDUAL and STIFF_RESIDUAL x (natural frequency of a contact).
 RESIDUAL, STIFF_RESIDUAL = 1e-12, 7e-15
 # Smallest distance of the first phase of an orbit from a contact, radian.
 MARGIN = 0.15
-# The log of contacts begins with 2 CONTACTS rows for each forcing cycle and for each segment.
+# First number of rows of the log of contacts: 2 CONTACTS x (number of cycles + number of segments).
 CONTACTS = 64
 
 
 @dataclass(frozen=True)
 class Orbit:
-    """A periodic orbit, or an approximation of one, in m segments whose ends should lie in flight.
+    """A periodic orbit, or an approximation of an orbit, in m segments that should end in flight.
 
     p: Packed parameters.
     periods: Period n in forcing cycles.
@@ -73,7 +73,7 @@ class Orbit:
 
     @cached_property
     def defects(self):
-        """End state of each segment minus first state of the next, (m, 4); zero if periodic."""
+        """Last state of each segment minus first state of the next one, (m, 4); 0 if periodic."""
         defects = np.empty_like(self.ends)
         defects[:-1] = self.ends[:-1] - self.states[1:]
         defects[-1] = self.sign * self.ends[-1] - self.states[0]
@@ -95,7 +95,7 @@ class Orbit:
 
     @cached_property
     def matrix(self):
-        """Product of the `factors`, (4, 4). Its eigenvalues are less exact than `multipliers`."""
+        """Product of all `factors`, (4, 4). Its eigenvalues are less exact than `multipliers`."""
         return reduce(lambda product, factor: factor @ product, self.factors)
 
     @property
@@ -142,7 +142,7 @@ class Orbit:
         """Relative error of the determinant of the monodromy matrix.
 
         By Liouville's theorem the determinant is exp(-h t - c (1 + 1/rm) t_c), with the period t,
-        the time in contact t_c and the coefficient c of the dashpot.
+        the time in contact t_c and the coefficient c of the walls' dashpot.
         """
         p = self.p
         rate = p[DAMPING] * self.cycle / p[FREQUENCY]
@@ -179,7 +179,7 @@ class Orbit:
 
     @cached_property
     def sequence(self):
-        """Walls touched in the order of time, such as "+-"; the least of its cyclic shifts."""
+        """Walls touched in the order of time, such as "+-"; the least of all its cyclic shifts."""
         walls = "".join("+" if wall > 0 else "-" for wall in self.contacts[:, 0])
         return min((walls[k:] + walls[:k] for k in range(len(walls))), default="")
 
@@ -196,7 +196,7 @@ class Orbit:
 
     def at(self, phase):
         """Return the state, shape (4,), at a phase W T, radian, not before the first phase."""
-        # A single segment is integrated beyond its end. Several segments are repeated.
+        # A single segment is integrated beyond its end. With several segments the cycle repeats.
         turns = int((phase - self.phases[0]) // self.cycle) if len(self.states) > 1 else 0
         local = phase - turns * self.cycle
         k = min(max(int(np.searchsorted(self.phases, local, "right")) - 1, 0), len(self.states) - 1)
@@ -206,7 +206,7 @@ class Orbit:
 
     @cached_property
     def deviation(self):
-        """First state minus the state half a period later (if n is odd, their sum), shape (4,).
+        """First state minus the state half a period later, shape (4,); their sum if n is odd.
 
         The deviation changes its sign where a branch meets a branch of symmetric orbits or of half
         the period. If `sign` is -1, all entries are 1.

@@ -21,8 +21,8 @@ from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.orbits.switching import follow_others, met_by
 
-# A branch of a period above 1 ends when the periods of unstable orbits in a row exceed BEYOND
-# forcing cycles together. Stable parts of the branch farther on are narrower than 0.01 in W.
+# A branch of a period above 1 ends when the periods of unstable orbits in a row add up to more than
+# BEYOND forcing cycles. Stable parts of the branch beyond this end are narrower than 0.01 in W.
 BEYOND = 300
 
 
@@ -47,7 +47,7 @@ def periodic_orbit(system, damper, frequency, state, *, period=1, phase=None):
     Returns
     -------
     xarray.Dataset
-        The variables that `orbit_branches` has for each `point`, for this orbit. The state is given
+        For the orbit: the variables that `orbit_branches` returns for a `point`. The state is given
         at a phase in a flight. For each `contact`: the wall, and the time and the relative velocity
         Z2' at the beginning and at the end.
 
@@ -104,11 +104,11 @@ def orbit_branches(
     - from a branch of period 1 or 3: branches that leave at a loss of symmetry, or at a period
       doubling next to stable orbits;
     - from other branches: branches of a period up to 9 that leave next to stable orbits and begin
-      stable;
-    - the symmetric branch, or that of half the period, at which a branch of a period up to 4 ends.
+      with stable orbits;
+    - the symmetric branch, or branch of half the period, at which a branch of period <= 4 ends.
 
     With `motions`, a branch of a period above 1 ends when the periods of unstable orbits in a row
-    exceed 300 forcing cycles together.
+    add up to more than 300 forcing cycles.
 
     Parameters
     ----------
@@ -123,7 +123,7 @@ def orbit_branches(
         contact_stiffness; for a machine cubic_stiffness, mass and gap in place of
         cubic, mass_ratio and clearance.
     period : int
-        Period of the orbit near a state, in forcing cycles.
+        Period of the orbit near the state, in forcing cycles.
     motions : list of xarray.Dataset, optional
         Results of `frequency_response` for this system and damper.
     progress : str, optional
@@ -139,8 +139,8 @@ def orbit_branches(
         period doubling, Neimark-Sacker bifurcation, grazing (a contact appears or vanishes in
         flight) or merging (two contacts with one wall become one, or one contact becomes two). For
         each (branch, edge): the reason why the branch ends. With `motions`: `seeds`, the number of
-        settled motions (with a damper, of those with contacts); and `seeds_lost`, the number of
-        seeds without an orbit of their period. A branch and its mirror image are one branch.
+        settled motions (only motions with contacts if there is a damper), and `seeds_lost`, the
+        number of seeds near which no orbit was found. Mirror images count as one branch.
 
     Raises
     ------
@@ -229,7 +229,7 @@ def _checked_orbit(model, state, period, phase):
 
 
 def _seeds(motions, damper):
-    """Yield period, frequency, max |Z1| and state of settled motions (damped: with contacts)."""
+    """Yield period, frequency, max |Z1|, state of settled motions; with a damper, with contacts."""
     for data in motions:
         chosen = data["outcome"].values == flag("outcome", "settled")
         if damper is not None:

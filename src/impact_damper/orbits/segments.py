@@ -1,7 +1,7 @@
-"""Multiple shooting: the division of an orbit into segments, and the algebra of their derivatives.
+"""Multiple shooting: divide an orbit into segments, and combine the derivatives of segments.
 
 A strongly unstable orbit is accurate if each of its segments amplifies rounding errors little. The
-derivative of a segment is that of its last state by its first. A segment begins at each cut.
+derivative of a segment is d(last state)/d(first state). A segment begins at each cut.
 """
 
 from functools import reduce
@@ -28,7 +28,7 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 # Orthogonal iteration separates two multipliers only if the ratio of their moduli exceeds APART.
 APART = 30.0
 # Orthogonal iteration makes at most SWEEPS sweeps, and ends when a sweep changes the basis by less
-# than SETTLED. Multipliers are separated only if the last sweep changed it by less than COUPLED.
+# than SETTLED. It separates multipliers only if the last change of the basis is below COUPLED.
 SWEEPS, SETTLED, COUPLED = 14, 1e-15, 1e-8
 # Largest norm of the derivative of a segment, if possible.
 AMPLIFIED = 30.0
@@ -158,14 +158,14 @@ def _sections(orbit, cycle, between):
     return places, [place for place in places if np.min(np.abs(forced - place), initial=1) < 1e-6]
 
 
-# Central differences change the parameter by NUDGE, or by FINE_NUDGE if the changes to both sides
-# differ by more than BENT times their sum. Then a contact appears or vanishes.
+# Central differences change the parameter by NUDGE, or by FINE_NUDGE if the second difference
+# exceeds BENT times the first difference, because a contact then appears or vanishes.
 NUDGE, FINE_NUDGE, BENT = 2e-7, 1e-9, 1e-3
 
 
 @kernel
 def list_turns(p, states, phases, tolerance, turns):
-    """List the first n extrema of Z2 of a motion in segments (see `survey`); return how many exist.
+    """Write the first n extrema of Z2 of a motion in segments to `turns`; return how many exist.
 
     The columns of `turns` (n, 4) are the segment; the phase W T; 1 at a maximum of |Z2|, 0 at a
     minimum; and |Z2| minus the clearance.

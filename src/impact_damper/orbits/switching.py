@@ -18,9 +18,9 @@ from impact_damper.orbits.shooting import shoot
 # DISTANCES: distances of first guesses from the bifurcation. ASIDE: largest distance of an orbit
 # from its first guess, divided by the distance of the guess from the bifurcation.
 DISTANCES, ASIDE = (2e-2, 4e-3, 8e-4, 1e-4, 1e-5), 0.5
-# Search for the other branch near grazing. SHARES: relative changes of the height. MISSED: largest
-# relative error of the distance from the bifurcation. REACH: largest distance. PASSAGES: largest
-# number of orbits from which the branch is followed through the grazing.
+# Search for the other branch near a grazing. SHARES: relative changes of the extremum's height.
+# MISSED: largest relative error of the distance from the bifurcation. REACH: largest such distance.
+# PASSAGES: largest number of orbits from which the branch is followed through the grazing.
 SHARES, MISSED, REACH, PASSAGES = (0.5, 0.2, 0.1, 0.05, 0.02), 0.5, 1e-3, 2
 # Kinds of events at which another branch leaves.
 LEAVING = ("symmetry_breaking", "period_doubling")
@@ -104,19 +104,19 @@ def _at_heights(leaving):
             yield found[0]
 
 
-# From a branch with a period in WHOLE unstable branches are followed too. From other branches only
+# WHOLE: periods of branches from which unstable branches are followed too. From other branches only
 # stable branches of a period up to STABLE are followed. MET: longest period of a branch from whose
 # ends a branch of more symmetry is followed.
 WHOLE, STABLE, MET = (1, 3), 9, 4
-# The end of a branch lies at an event if their parameters differ by less than SAME_VALUE, and their
-# max |Z1| by less than SAME_SIZE. The end is a fold, which is located to 1e-7 in branch length.
+# The end of a branch lies at an event if end and event differ by less than SAME_VALUE in the
+# parameter and SAME_SIZE in max |Z1|. The end is a fold, located to 1e-7 in length of the branch.
 SAME_VALUE, SAME_SIZE = 1e-6, 1e-4
 # Largest difference of the parameter between equal bifurcations.
 NEAR = 1e-9
 
 
 def follow_others(branches, follow):
-    """Append to `branches` those that leave at their events, or that they meet at their ends."""
+    """Append to `branches` branches that leave at an event, or that a branch meets at its end."""
     for branch in branches:
         for edge in (0, -1):
             point = _more_symmetric(branches, branch, edge)
