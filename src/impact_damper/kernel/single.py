@@ -169,7 +169,7 @@ def step(p, y, side, t, longest, tolerance, work):
 
 @kernel_only
 def state_in_step(work, side, y, t):
-    """Return the state at time t of the step in `work`. It began at t = 0 in the state y."""
+    """Return the state at time t of the step in `work`. At t = 0 the step begins in the state y."""
     a = pointer(work)
     order = FLIGHT_ORDER if side == 0 else CONTACT_ORDER
     x, v = polynomial(work[X:], order, t)

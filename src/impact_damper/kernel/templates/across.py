@@ -1,8 +1,8 @@
 """Template (see `step`): acceleration across, which is Z2'' - Z1'' without the force of a wall.
 
 The acceleration across is DRAW - BASE A cos(W T), with the amplitude A of the forcing. DRAW is
-gravity along the gap plus the friction of sliding, per unit of loose mass. BASE is 1 if
-the base moves, because Z1 is measured from the base. SWAY is the double integral over time of the
+gravity along the gap plus the friction of sliding, per unit of loose mass. BASE is 1 if the base
+moves, otherwise 0. Z1 is measured from the base. SWAY is the double integral over time of the
 acceleration across, from the beginning of the step.
 """
 

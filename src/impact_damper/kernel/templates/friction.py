@@ -197,8 +197,8 @@ def keep_tangents(a, d):
 def friction_jump(a, d):
     """Multiply tangents by the saltation matrix of a turn, and undo `keep_tangents`.
 
-    Let J be the jump of FRICTION SLIDE at the turn, b be Z2'' before the turn, and w be the
-    tangent's Z2'. The tangent's Z1' jumps by -rm w J/b, and w jumps by -(1 + rm) w J/b. If the
+    At the turn friction per unit of loose mass jumps by J. Let b be Z2'' before the turn, and w be
+    the tangent's Z2'. The tangent's Z1' jumps by -rm w J/b, and w jumps by -(1 + rm) w J/b. If the
     loose mass has stuck during the step, w becomes 0, and the tangent's Z2 becomes KEPT.
     """
     for i in range(TANGENTS):
