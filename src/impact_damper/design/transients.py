@@ -65,7 +65,7 @@ def swept_sine(machine, damper, band, rate) -> xr.Dataset:
     """Return a dataset of sweeps up and down over a band (Hz) at a rate (Hz/s), from steady state.
 
     The envelope is the largest displacement in each cycle. If the motion escapes over the barrier
-    of a softening spring, the envelope is infinite in the cycle of the escape, and then NaN.
+    of a softening spring, the envelope is infinite in the cycle of the escape, later NaN.
     """
     least, most = band
     count = int((most**2 - least**2) / (2 * rate))

@@ -32,7 +32,7 @@ STYLE = {
     "legend.frameon": False,
     "legend.handlelength": 2.4,
     "legend.columnspacing": 1.4,
-    # Height of titles. With None, matplotlib searches it, which takes a fifth of the drawing time.
+    # Height of titles. With None matplotlib searches a free height in a fifth of the drawing time.
     "axes.titley": 1.0,
     "axes.linewidth": 0.6,
     "axes.prop_cycle": cycler(color=[BLUE, VERMILION, GREEN, ORANGE, PURPLE, BLACK]),
