@@ -100,9 +100,9 @@ def _frequencies(machine, ratio, band):
 def response(machine, absorber, frequencies, force_shares=(1.0,)) -> np.ndarray:
     """Return largest amplitudes (m) at frequencies (Hz), shape (frequencies, force shares).
 
-    Amplitudes of a linear machine are exact. Harmonic balance gives amplitudes with a cubic spring.
-    Left out are solutions between two folds, and solutions above the amplitude at which a softening
-    spring has no force. If no solution is left, the amplitude is infinite.
+    Amplitudes are exact without a cubic spring, and by harmonic balance with a cubic spring. Left
+    out are solutions between two folds, and solutions at which a softening spring has no force or
+    pulls outwards. Without any solution the amplitude is infinite. Other instabilities are missed.
     """
     oscillator = machine.oscillator()
     pairs = zip(*_dynamics(machine, absorber, np.asarray(frequencies)), strict=True)
