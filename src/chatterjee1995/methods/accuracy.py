@@ -105,7 +105,7 @@ def accuracy(system, damper, *, name, settings, references, **given):
 
 
 def _integrations(scene, settings, slow_periods):
-    """Yield (label, tolerance, `Run`, cycles) of each run. Slow integrators run `slow_periods`."""
+    """Yield (label, tolerance, `Run`, cycles) of each run; if slow, `slow_periods` cycles."""
     p, start = scene.p, np.array(scene.state, float)
     given = p, start, strobe_time(p), scene.periods
     for tolerance in settings["taylor"]:

@@ -76,11 +76,11 @@ class Integrator:
         return read_off(p, work, times, ends)
 
     def flight(self, p, state, end, resolution, time):
-        """Run without walls from T = 0 to `end`; return |Z2| at step ends and `time`, or None."""
+        """Run without walls to T = `end`; return |Z2| at step ends and at `time`. None: failure."""
         raise NotImplementedError
 
     def touches(self, p, state, levels, resolution):
-        """Return a mask: is a wall at |Z2| = level touched? None: |Z2| from `flight` decides."""
+        """Return a mask: whether a wall at each level is touched. None if `flight` decides."""
 
     def largest_displacements(self, p, start, begin, periods, steps) -> np.ndarray:
         """Return max |Z1| in each cycle of `steps` equal steps; NaN after the run has diverged."""

@@ -97,7 +97,7 @@ def follow_quiet_orbits(parameters, states) -> QuietOrbits:
 
 
 def find_quiet_orbit(p, guess):
-    """Return the quiet orbit (or None) near `guess`, a state at W T = PHASE, and a status."""
+    """Return a pair: quiet orbit (or None) near the state `guess` at W T = PHASE, and a status."""
     orbit = newton(shoot(p, guess, 1, PHASE, symmetric=True), REACH)
     if not orbit.converged:
         return None, "not_converged"

@@ -93,7 +93,7 @@ def without_dashpot(p):
 
 
 class RigidOrbit(NamedTuple):
-    """A symmetric orbit, two impacts a cycle. `speed` and `acceleration` are before an impact."""
+    """A symmetric orbit, two impacts a cycle. `speed`, `acceleration`: just before an impact."""
 
     state: np.ndarray
     multiplier: complex

@@ -87,7 +87,7 @@ def _in_steps(own, targets):
 
 
 def _largest_step(held, tested, steps):
-    """Return the largest step up to which all tested steps are held; NaN if < CONFIRMED are."""
+    """Return the largest step up to which all tested steps hold the motion; NaN if < CONFIRMED."""
     held, steps = held[tested], steps[tested]
     failing = np.flatnonzero(~held)
     first = failing[-1] + 1 if len(failing) else 0

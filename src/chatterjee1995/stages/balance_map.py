@@ -159,7 +159,7 @@ class _Row(NamedTuple):
 
 
 def balance_map(parameter, values, frequency_ratios, fixed, *, settling, workers=1, progress=None):
-    """Return a dataset: harmonic balance and exact motions over W/Wp (columns), a parameter (rows).
+    """Return a dataset: harmonic balance and exact motions, by parameter (rows) and W/Wp (columns).
 
     `fixed` holds the other parameters. If no clearance is given, rule (19) sets one for each row.
     """

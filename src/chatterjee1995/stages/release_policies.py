@@ -108,7 +108,7 @@ class Trials(NamedTuple):
     workers: int = 1
 
     def rules(self, trials, seed):
-        """Return a list: for each policy, the RULE with the fewest mean cycles in the trials."""
+        """Return a list: for each policy, the RULE with the smallest mean of cycles to the goal."""
 
         def costs(rules):
             cycles = [outcome.cycles for outcome in self.run(rules, trials, seed)]
@@ -133,7 +133,7 @@ class Trials(NamedTuple):
         reached, running = np.zeros(count, bool), np.arange(count)
         rules = np.repeat(np.array(rules, RULE), trials)
         while len(running):
-            # Columns: phase and place of the loose mass at switching on, phase of release, start.
+            # Columns: phase of switching on, place of loose mass, phase of release, start.
             draws = generator.random((trials, 4))[running % trials]
             first = np.searchsorted(owner, place[running])
             number = np.searchsorted(owner, place[running], side="right") - first

@@ -216,7 +216,7 @@ def release_data(case, motions, entries, settling):
 
 
 def _settled_motions(oscillator, damper, frequency, seed, settling, workers, known):
-    """Return settled motions, sorted by max |Z1|: from `known`, and from runs of many starts."""
+    """Return the settled motions in `known` and from runs of many starts, sorted by max |Z1|."""
     on = pack(oscillator, damper, frequency)
     # The solutions for elastic contact are good starts for an inelastic damper too.
     balance = impacting_solutions(oscillator, replace(damper, restitution=1.0), frequency)

@@ -50,8 +50,8 @@ def subharmonic_suppression(
 ):
     """Return a dataset of motions with the damper in the range of W of the free subharmonic.
 
-    If the free subharmonic is found, equally many values of W over its range and margins replace
-    `frequencies`. Within the range, half of the starts lie on the free subharmonic.
+    If the free subharmonic is found, `frequencies` is replaced by equally many frequencies over
+    its range and margins. Within the range, half of the starts lie on the free subharmonic.
     """
     if not any(getattr(oscillator, name) for name in NONLINEAR):
         raise ValueError(
@@ -130,7 +130,7 @@ def is_subharmonic(data):
 
 
 def branch_ends(data, branch, grid, rows):
-    """Return both ends of a branch of a `sweep`, or its last frequency if an end is not located."""
+    """Return both ends of a branch of a `sweep`; for an end not located, the last frequency."""
     ends = grid[[min(rows), max(rows)]]
     for side, (row, step, turn) in enumerate(((min(rows), -1, "down"), (max(rows), 1, "up"))):
         if not 0 <= row + step < len(grid):
