@@ -38,7 +38,7 @@ def last_run(folder):
 
 
 def table(text, timings):
-    """Return the core seconds of a run: in its jobs, in their start-up, and without a job.
+    """Return the core seconds of a run: for computing, for the start-up of jobs, and without a job.
 
     Parameters
     ----------

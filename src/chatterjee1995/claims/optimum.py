@@ -83,7 +83,7 @@ def restitution(datasets):
 
 
 def _restitution_steps(group):
-    """Return ratios value(e) / value(next larger e); `overall` is value(least e) / value(most)."""
+    """Return ratios x(e) / x(next larger e). `overall` is x(smallest e) / x(largest e)."""
     group = sorted(group, key=lambda sweep: -reading.parameter(sweep, "restitution"))
     return [
         {

@@ -167,7 +167,7 @@ def smallest_quiet(branches, free, frequency):
 def high_counterparts(design, branches, free) -> pd.DataFrame:
     """Return for each stable violent solution of (7) the row of `crossings` nearest in amplitude.
 
-    Rows are only symmetric orbits of period 1 with two contacts: (7) approximates no other orbits.
+    Only symmetric orbits of period 1 with two contacts are compared: (7) approximates no others.
     """
     part = pieces(branches)
     part = part[(part.period == 1) & (part.asymmetry < SYMMETRIC)]

@@ -134,7 +134,7 @@ ALONE_PLACES = {
         maximum_response,
     ],
 }
-# SPRING_PLACES: every field of the spring must change results. NONLINEAR_PLACES: nonlinear fields.
+# SPRING_PLACES must change with every field of the spring, NONLINEAR_PLACES with nonlinear fields.
 SPRING_PLACES = {
     "kernel/equation.py": [
         lambda oscillator: kernel.energy.py_func(packed(oscillator), STATE),

@@ -58,7 +58,7 @@ def test_frequencies_are_those_of_the_spectrum(torus):
 
 
 def test_torus_turns_as_the_orbit_it_splits_off_from():
-    """At a Neimark-Sacker point the rotation number is the angle of the multiplier exp(i angle)."""
+    """At a Neimark-Sacker point with multiplier exp(i a) the rotation number is a/(2 pi)."""
     p = pack(PAPER, INELASTIC, 1.6)
     state = np.array([0.7796012138, 0.1703671945, 0.8163322819, -0.9718488376])
     p, (state, multiplier) = follow_stable(p, state, 3, FREQUENCY, 1.55)

@@ -85,7 +85,7 @@ def test_a_number_beyond_its_bound_changes_verdict_and_finding(claim):
         beyond = bound.least - 0.5 if math.isfinite(bound.least) else bound.most + 0.5
         changed = inside | {bound.name: beyond}
         assert claim.verdict(changed) not in (REPRODUCED, NOT_DECIDABLE)
-        # S5 reads the distances of its peaks from a list.
+        # The finding of S5 takes distances from a list, not from the number that has the bound.
         assert claim.sentences(changed) != usual or claim.number == "S5", bound.name
 
 

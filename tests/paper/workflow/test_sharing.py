@@ -29,7 +29,7 @@ OTHER = "results/branches/free_h150.nc"
 
 
 def checkout(folder):
-    """Return a copy of the project whose scripts are STUB, and whose kernels count as compiled."""
+    """Return a copy of the project. STUB replaces its scripts, and kernels count as compiled."""
     folder.mkdir()
     for script in (copy_of_project(folder) / "workflow/scripts").glob("*.py"):
         script.write_text(STUB + script.read_text())
