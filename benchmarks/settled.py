@@ -18,7 +18,7 @@ from impact_damper.motions import ensemble
 from impact_damper.motions.simulate import random_states
 
 SEED = 3
-# Ranges of mass ratio, clearance, forcing frequency and restitution of a random damper.
+# Least and greatest mass ratio, clearance, forcing frequency and restitution of random dampers.
 LEAST, MOST = (0.05, 0.25, 1.0, 0.6), (0.5, 4.0, 3.0, 1.0)
 STARTS = 8  # for each damper
 

@@ -48,7 +48,7 @@ def repeats_of(call):
 def interleaved(calls, rounds):
     """Return the seconds of each call in each round, by name; in a round every call has its turn.
 
-    The fastest of BLOCKS blocks counts. A block that takes 50 times SHORTEST stays the only one.
+    The fastest of BLOCKS blocks counts. If the first block takes 50 SHORTEST, it is the only block.
     """
     repeats = {name: repeats_of(call) for name, call in calls.items()}
     seconds = {name: np.empty(rounds) for name in calls}

@@ -1,7 +1,7 @@
 """The gap of the smallest orbit of a linear machine at resonance, in closed form.
 
-`docs/explanation/trap.md` derives the closed form from the balance of first harmonics at the fold of
-the motion with two impacts in each cycle.
+`docs/explanation/trap.md` derives the form from the balance of first harmonics, at the fold of the
+motion with two impacts in each cycle.
 """
 
 import numpy as np

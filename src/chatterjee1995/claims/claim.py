@@ -71,8 +71,8 @@ class Claim:
     """A statement of the paper. `number` is "1" to "19", or "S1" to "S6" (misprints, omissions).
 
     `evidence(datasets)` returns the values of the template `finding`, among them a number for each
-    bound, or NaN if the data do not determine the number. It raises `Missing` if a dataset is
-    missing. The text `finding` must be true for every verdict. `reading` says how we read vague
+    bound, or NaN if the data do not determine the number. `evidence` raises `Missing` if a dataset
+    is missing. The text `finding` must be true for every verdict. `reading` says how we read vague
     words. `required` and `full_agreement` map each bound to the meaning of its number. A second
     bound of the same number is mapped to None. `figures` are names, the most important first.
     `verdicts` maps usual verdicts to other words.

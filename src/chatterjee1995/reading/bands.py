@@ -41,7 +41,7 @@ def quiet_motions(response, free):
 
 
 def suppression_band(datasets, name):
-    """Return a curve's `Band`: from the highest W with a violent motion to the resonance's end.
+    """Return a curve's `Band`: from the highest W of a violent motion to the end of the resonance.
 
     Without violent motions, `lower` and `resolution` are NaN. `resolution` is 0 if all violent
     motions are periodic. Otherwise `resolution` is at most the step between two computed W.

@@ -79,7 +79,7 @@ def extended_state(p, state, phase, cycles):
 
 
 def test_the_doubled_branch_of_a_stable_orbit_is_followed_once():
-    """On the branch of the large orbit of figure 5 (a) a period doubling has a stable branch."""
+    """A stable branch of period 2 leaves the branch of the large orbit of figure 5 (a)."""
 
     def family(value):
         return pack(PAPER, DESIGN, value)

@@ -58,7 +58,7 @@ def orbits_times(factor, names=ELASTIC, variable="orbit_displacement"):
 
 
 def optima_times(factor):
-    """Return the change that multiplies the optimum d0 by (7), which was the optimum d0 / 1.05."""
+    """Return the change that multiplies `analytical_optimum` by a factor. It was (optimum)/1.05."""
     return each(world()["optimum"], lambda name: scale("optimum", name, analytical_optimum=factor))
 
 

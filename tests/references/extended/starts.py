@@ -107,7 +107,7 @@ def _graze(random, p, state, start, end):
 def draw(kind, count, seed):
     """Return `count` starts of one kind, alternately with elastic and inelastic contact.
 
-    Z1, Z1', Z2' are uniform in (-2, 2), (-3, 3), (-4, 4), and Z2 over the gap. Three kinds differ:
+    Z1 is uniform in (-2, 2), Z1' in (-3, 3), Z2' in (-4, 4), Z2 over the gap. Three kinds differ:
     "grazing": an extremum of Z2 lies 1e-13 to 1e-2 inside or beyond a wall. "in contact": Z2 lies
     beyond a wall, by the penetration that stops a speed of 0.01 to 30. "on a wall": Z2 is exactly
     the clearance, with Z2' = 0 or a speed of 1e-8 to 4, outward or inward.
