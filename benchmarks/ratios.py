@@ -71,7 +71,7 @@ def ratio_row(scene, name, rival, found, measured):
 
 
 def compared(scenes, rounds, limit=LIMIT, timed=COMPARED):
-    """Return two tables: times at equal error, and their ratios.
+    """Return two tables: times at equal error, and ratios of the times.
 
     `limit` is the largest error of a component of a state at the end, and `timed` names methods.
     Times are microseconds for a forcing cycle of a trajectory. A ratio is of times in one round.

@@ -61,7 +61,7 @@ def make(name, p, state, periods, count, seed=1995):
 
 
 def from_configuration(count):
-    """Return all scenes of the configuration except the chaotic one, with `count` starts each."""
+    """Return all scenes of the configuration that are not chaotic, with `count` starts each."""
     return [
         make(name, packed(parameters), state, periods, count)
         for name, parameters, state, periods in configured_scenes()

@@ -65,7 +65,7 @@ def named_systems():
 def random_systems(count):
     """Yield random systems as `named_systems` does.
 
-    Their clearances are near the paper's rule, and their frequencies near the resonance peak.
+    The clearances are near the paper's rule, and the frequencies near the resonance peak.
     """
     generator = np.random.default_rng(SYSTEMS_SEED)
     for i in range(count):
@@ -119,7 +119,7 @@ def run_on(p, state):
 def kind(motion):
     """Return outcome and period of a motion; drifting counts as without contact.
 
-    Neither a loose mass at rest nor a slowly drifting one acts on the machine.
+    Neither a loose mass at rest nor a slowly drifting loose mass acts on the machine.
     """
     alike = {flag("outcome", "drifting"): flag("outcome", "non_colliding")}
     outcome = int(motion["outcome"])
@@ -141,7 +141,7 @@ class Known(NamedTuple):
     later: list
 
     def hold(self, record):
-        """Return whether a motion is among the known ones.
+        """Return whether a motion is among the known motions.
 
         A settled motion must agree in size within SAME, any other motion within the factor SIMILAR.
         """

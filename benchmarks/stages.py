@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pandas as pd
 
-# Columns of the timings (chatterjee1995.workflow.job), and their names here.
+# Column of a file of timings (chatterjee1995.workflow.job) -> name of the column here.
 COLUMNS = {"seconds": "seconds", "cpu_seconds": "cpu_seconds", "peak_memory_mb": "memory_mb"}
 
 
@@ -31,7 +31,7 @@ def jobs(folder, since=0.0):
 
 
 def table(folder):
-    """Return a row for each stage, the longest first, and their total.
+    """Return a row for each stage, the longest stage first, and a row for the total.
 
     Returns
     -------

@@ -67,7 +67,7 @@ def names(linked):
 
 
 def cheapest(entities):
-    """Return the name of the shortest job that reads no dataset and writes one."""
+    """Return the name of the shortest job that reads no dataset and writes a dataset."""
 
     def has_datasets(action, key):
         return any(name.endswith(".nc") for name in names(action[key]))

@@ -250,7 +250,7 @@ def run_of(project, paths, jobs):
 
 
 def crate(root, results, paths):
-    """Return the metadata of the crate of some files, and the number of jobs that made them."""
+    """Return the metadata of the crate of files `paths`, and the number of jobs that made files."""
     jobs = jobs_of(root, set(paths))
     read, made = (
         {path for job in jobs.values() for path in job[key]} for key in ("input", "output")

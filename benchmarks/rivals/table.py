@@ -15,7 +15,7 @@ from benchmarks.rivals import cvode_runs, diffrax_runs, odeint_runs
 from benchmarks.timing import interleaved, spread
 
 LIMIT = 1e-9
-# Tolerances from 1e-6 to 3e-14, the tightest that these programs accept, two to a decade.
+# Two tolerances per decade, from 1e-6 to 3e-14, the tightest tolerance that the programs accept.
 TOLERANCES = 10.0 ** (-np.arange(12, 28) / 2)
 PROGRAMS = {
     "Boost.odeint, dopri5": odeint_runs,

@@ -45,7 +45,7 @@ class KnownOrbit(NamedTuple):
 
 
 def polished_orbit(name):
-    """Return the orbit of `STARTS` with this name, with a state accurate to 1e-13."""
+    """Return the orbit `name` of `STARTS`, with a state accurate to 1e-13."""
     damper, frequency, start = STARTS[name]
     p, state = pack(PAPER, damper, frequency), np.array(start)
     converged, _, _ = strobe_map.polish(p, state, 1, 0.1, 1e-13)

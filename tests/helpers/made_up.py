@@ -32,7 +32,7 @@ BOUNDS = {"bound": ["share", "lower", "upper"]}
 
 
 def made(data, coordinates, **given):
-    """Return a dataset with these variables and parameters."""
+    """Return a dataset with the variables `data` and the parameters `given`."""
     return dataset(data, coordinates, given, "made up")
 
 

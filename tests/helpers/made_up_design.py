@@ -146,7 +146,7 @@ def _maps():
 
 
 def _motions():
-    """Return a settled motion and a chaotic one at each frequency."""
+    """Return a settled motion and a chaotic motion at each frequency."""
     sizes = np.stack([np.linspace(0.5, 0.3, 5), np.linspace(0.8, 0.4, 5)], axis=1)
     outcomes = [flag("outcome", "settled"), flag("outcome", "chaotic")]
     return {

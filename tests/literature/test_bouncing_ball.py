@@ -22,7 +22,7 @@ def ball(height, time, restitution, stiffness):
     """Return states of a ball at rest above the floor, and the times at which contacts begin."""
     damper = Damper(MASS_RATIO, CLEARANCE, restitution, stiffness / (1 + 1 / MASS_RATIO))
     p = pack(ACCELERATED, damper, 100.0)
-    p[FREQUENCY] = 1e-9  # lower than the library allows, so that the force stays the same
+    p[FREQUENCY] = 1e-9  # lower than the library allows, so that the force stays constant
     state = np.array([0.0, 0.0, CLEARANCE - height, 0.0])
     states, contacts = trace(p, state, 0.0, np.linspace(0.0, time, 2001), 1e-13)
     return states[:, 2:] - [CLEARANCE, 0.0], contacts[:, 1]

@@ -26,7 +26,7 @@ def _remaining(datasets, name):
 
 
 def reappearance(datasets):
-    """Return the numbers of claim 10: light dampers remove the subharmonic, heavy ones do not."""
+    """Return the numbers of claim 10: only light dampers remove the subharmonic."""
     light = [_remaining(datasets, name) for name in LIGHT]
     heavy, low = _remaining(datasets, HEAVY), _remaining(datasets, LOW_DAMPING)
     return {

@@ -88,7 +88,7 @@ def draw_stable_steps(*, stable_steps):
 
 
 def _draw_method(axes, data, index, title):
-    """Draw the largest steps of one method for each accuracy, and its linear stability limit."""
+    """Draw a method's largest steps for each accuracy, and the method's linear stability limit."""
     looks = dict(zip(data["accuracy"].values, list(LINES.values())[:2], strict=True))
     for accuracy, look in looks.items():
         step = data["stable_step"].sel(accuracy=accuracy) * data["contact_frequency"]

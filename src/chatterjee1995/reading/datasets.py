@@ -40,12 +40,12 @@ def select(datasets, stage, names):
 
 
 def damped(datasets, stage) -> dict:
-    """Return those datasets of a stage that have a damper, keyed by name."""
+    """Return the datasets of a stage with a damper, keyed by name."""
     return {name: data for name, data in datasets.get(stage, {}).items() if has_damper(data)}
 
 
 def free(datasets, stage) -> dict:
-    """Return those datasets of a stage that have no damper, keyed by name."""
+    """Return the datasets of a stage without a damper, keyed by name."""
     return {name: data for name, data in datasets.get(stage, {}).items() if not has_damper(data)}
 
 

@@ -167,7 +167,7 @@ def smallest_quiet(branches, free, frequency):
 def high_counterparts(design, branches, free) -> pd.DataFrame:
     """Return for each stable violent solution of (7) the row of `crossings` nearest in amplitude.
 
-    Only symmetric orbits of period 1 with two contacts are compared: (7) approximates no others.
+    Rows are symmetric orbits of period 1 with two contacts: (7) approximates no other orbits.
     """
     part = pieces(branches)
     part = part[(part.period == 1) & (part.asymmetry < SYMMETRIC)]

@@ -15,7 +15,7 @@ class Stage(NamedTuple):
     job: Callable
     function: str  # "module:name" of the function that computes the dataset
     message: str  # printed for each job
-    reads: dict = {}  # argument of `function` -> stages; their datasets of the entry are its value
+    reads: dict = {}  # argument of `function` -> stages that compute its value for the entry
     files: dict = {}  # argument of `function` -> JSON file; the content is the argument's value
     together: bool = False  # whether one job computes all entries (jobs start slowly)
     # 2: other jobs wait for these jobs. 1: the longest jobs, which should not start last.

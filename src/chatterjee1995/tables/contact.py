@@ -1,4 +1,4 @@
-"""Tables of the contact model and of the rigid limit, with counts of the cells of their maps."""
+"""Tables of the contact model and of the rigid limit, with counts of map cells."""
 
 import numpy as np
 import pandas as pd

@@ -84,7 +84,7 @@ def quasi_periodic(datasets) -> pd.DataFrame:
 
 
 def chaos(datasets) -> pd.DataFrame:
-    """Return the violent chaotic motions and the mean number of cycles that their chaos lasts."""
+    """Return the violent chaotic motions and the mean number of cycles for which chaos lasts."""
     rows = []
     for name, data in reading.damped(datasets, "response").items():
         try:

@@ -1,4 +1,4 @@
-"""A job of the workflow. Scripts import this module first: it makes the imports after it faster."""
+"""A job of the workflow. Scripts import this module first, which makes later imports faster."""
 
 import atexit
 import gc

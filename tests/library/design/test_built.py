@@ -1,4 +1,4 @@
-"""Dampers as they are built: their promises hold in a simulator that shares no code with ours."""
+"""Promises of dampers as they are built hold in a simulator that shares no code with the library."""
 
 import numpy as np
 import pytest

@@ -166,7 +166,7 @@ def flat(result):
     return np.ravel(np.asarray(result, float))
 
 
-# Table of functions by file, fields that must change their results, oscillators that are changed.
+# Table of functions by file, fields that must change the results, oscillators that are changed.
 TABLES = [
     (PLACES, PARAMETERS, (BENT, LINEAR)),
     (ALONE_PLACES, ALONE, (BENT, LINEAR)),

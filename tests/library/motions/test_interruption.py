@@ -56,7 +56,7 @@ ARGUMENTS = {
 
 @pytest.fixture(scope="module")
 def interrupted():
-    """Interrupt all calls, one after the other. Return the process, which printed their names."""
+    """Interrupt all calls in turn. Return the process, which printed the names of the calls."""
     calls = {name: [call.format(each) for each in ARGUMENTS[name]] for name, call in CALLS.items()}
     code = f"CALLS = {calls!r}\n{SCRIPT}"
     return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=200)

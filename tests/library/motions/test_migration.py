@@ -48,7 +48,7 @@ def test_course_of_a_run(options):
         inside = (run.time >= first) & (run.time < last)
         times = np.append(run.time.values[inside], last)
         path = course(1.95, y, (first, last), damper, times)
-        # SciPy's run does not locate contacts. The free transient amplifies the error from this.
+        # SciPy's run does not locate contacts. The free transient amplifies the resulting error.
         assert_allclose(path[0, :-1], run.displacement.values[inside], atol=1e-4)
         y = path[:, -1]
 

@@ -1,4 +1,4 @@
-"""States of datasets carry their phase, and every function that takes a state begins there."""
+"""A state of a dataset has a phase. Every function that takes the state begins at this phase."""
 
 import numpy as np
 import pytest

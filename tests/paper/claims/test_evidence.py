@@ -1,4 +1,4 @@
-"""Invented data, in which nearly all claims are reproduced; changes of them change verdicts."""
+"""In invented data nearly all claims are reproduced. Changes of the data change verdicts."""
 
 import numpy as np
 import pytest
@@ -149,7 +149,7 @@ def test_regions_of_contact_number_overlap(overlap, expected, data):
 
 @pytest.mark.parametrize(("fall", "expected"), [(1.06, REPRODUCED), (1.04, NOT_REPRODUCED)])
 def test_fall_of_the_subharmonic_at_lower_damping(fall, expected, data):
-    """No start leads to a subharmonic at h = 0.107; half lead to a smaller one at h = 0.215."""
+    """At h = 0.107 no start leads to a subharmonic. At h = 0.215 half lead to a smaller motion."""
     size = float(data["subharmonic"]["figure_05a"].free_subharmonic[0])
     remaining = 2 * (1 - 1 / fall) * size
     data["subharmonic"]["figure_05a"] = subharmonic("figure_05a", damped=remaining)

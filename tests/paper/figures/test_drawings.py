@@ -151,7 +151,7 @@ DRAWINGS = {
 
 @cache
 def drawn_once(name):
-    """Return the figure of this name. It is drawn only once, so tests must not change it."""
+    """Return the figure `name`. A figure is drawn only once, so tests must not change figures."""
     drawn = DRAWINGS[name][0]()
     FigureCanvasAgg(drawn).draw()
     return drawn

@@ -18,7 +18,7 @@ pytestmark = pytest.mark.filterwarnings("error")
 
 @cache
 def drawn_once(name):
-    """Return the schematic of this name. It is drawn only once, so tests must not change it."""
+    """Return the schematic `name`. It is drawn only once, so tests must not change the figure."""
     figure = getattr(schematics, name)()
     FigureCanvasAgg(figure).draw()
     return figure

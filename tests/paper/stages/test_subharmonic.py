@@ -73,7 +73,7 @@ def assert_energy_balance(motion, frequency):
 
 @pytest.mark.thorough
 def test_damped_subharmonic_is_a_motion_of_period_3(damped):
-    """Some starts on the free subharmonic, with the damper switched on, lead to the damped one."""
+    """Some starts on the free subharmonic lead to the subharmonic with damper."""
     present = np.isfinite(damped.free_subharmonic)
     assert np.array_equal(np.isfinite(damped.switched_share), present)
     row = damped.sel(frequency=1.85, method="nearest")

@@ -15,7 +15,7 @@ from chatterjee1995.tables.files import SHOWN, in_words
 from chatterjee1995.workflow.chapter import make_table
 
 CONFIG = configurations.paper()
-# Tables for which the invented datasets have all variables; tests of the stages make the others.
+# Tables for which the invented datasets have all variables. Tests of stages make the other tables.
 INVENTED = ("harmonic_balance", "subharmonic", "optimum", "migration", "release_scan", "machines")
 
 

@@ -26,5 +26,5 @@ def test_the_environment_of_jobs_has_the_packages_of_the_project():
     listed = project["dependencies"] + project["optional-dependencies"]["workflow"]
     wanted = bounds(listed) | {"python": project["requires-python"].removeprefix(">=")}
     given = yaml.safe_load((ROOT / "workflow/envs/impact-damper.yaml").read_text())
-    del wanted["snakemake"]  # it runs the jobs, and is no part of their environment
+    del wanted["snakemake"]  # Snakemake is no part of the environment of the jobs
     assert bounds(given["dependencies"]) == wanted

@@ -30,7 +30,7 @@ def test_every_stage_is_run_for_the_paper_and_in_the_smoke_run(arguments, most, 
     planned = snakemake(ROOT, *targets, *arguments, "-n", "--directory", tmp_path / "elsewhere")
     found = jobs(planned)
     assert targets < found.keys()
-    for target in targets:  # they start no process
+    for target in targets:  # targets start no process
         del found[target]
     assert sum(found.values()) <= most
     others = {"compile_kernels", "study_chunks", "machine_pages"}

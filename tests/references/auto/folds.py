@@ -55,8 +55,8 @@ RUNS = {
     "response": ("response", RESPONSE, "UZSTOP = {'W': 0.6}", {"symmetry_breaking"}, LOOSE),
     "subharmonic": ("subharmonic", SUBHARMONIC, "STOP = ['LP3']", None, SHARP),
 }
-# AUTO's types of points. AUTO calls type 6 a branch point. For symmetric orbits it is the loss of
-# symmetry, at which two orbits branch off that are mirror images of each other.
+# AUTO's types of points. AUTO calls type 6 a branch point. A branch point of symmetric orbits is a
+# loss of symmetry: two orbits that are mirror images of each other branch off.
 KINDS = {5: "fold", 6: "symmetry_breaking", 7: "period_doubling", 8: "neimark_sacker"}
 # AUTO's type of the last point if the number of steps was too small.
 OUT_OF_STEPS = 9

@@ -89,7 +89,7 @@ def run(p, state, start, times, *, tolerance=1e-20, longest=math.inf, room=100_0
     """Return the `Run` from the time `start` through increasing times.
 
     The first state is in contact if it lies beyond a wall, or on a wall with outward velocity.
-    `tolerance` is the local error of a step, relative to the state if this is larger than 1, and
+    `tolerance` is the local error of a step, relative to the state if the state exceeds 1, and
     `longest` the longest step. `room` is the largest number of contacts, and of extrema of Z2. A
     RuntimeError says that `room` is too small, or that the program cannot be compiled.
     """

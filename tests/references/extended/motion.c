@@ -406,7 +406,7 @@ static void begin_contact(Run *run, int wall, real *contacts, long *logged)
 
 /* One run from `start` through the n increasing `times`.
 
-   settings: allowed local error (relative to the state if this is larger than 1), longest step.
+   settings: allowed local error (relative to the state if the state exceeds 1), longest step.
    Class Run in __init__.py explains states, extremes, contacts, turnings, flow and growth. flows has
    space for `room` matrices, the logs for `room` rows. counts: contacts begun, rows
    of contacts, rows of turnings. */
