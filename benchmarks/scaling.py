@@ -83,7 +83,7 @@ def cores(scenes, count, rounds):
     return pd.DataFrame(rows)
 
 
-# Scene and starts of this process, if it is one of `processes_apart`.
+# Scene and starts of a process of `processes_apart`; empty in any other process.
 alone = {}
 
 

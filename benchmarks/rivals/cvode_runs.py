@@ -1,7 +1,7 @@
 """CVODE of SUNDIALS with root finding, through scikit-sundae, with compiled equations.
 
 The method is Adams', which the documentation recommends for problems that are not stiff. The one
-root function is |Z2| - d0. At a root CVODE returns and starts again in the next phase.
+root function is |Z2| - d0. At a root CVODE returns and starts again, in contact or in flight.
 """
 
 import math

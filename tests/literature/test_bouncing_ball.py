@@ -1,9 +1,9 @@
 """Bouncing balls, which fall through the floor in other programs, against closed forms.
 
 SciML/DifferentialEquations.jl, issue 138 (a ball that keeps its energy) and issue 696 (restitution
-0.5). Here the loose mass is the ball, one wall the floor, and a machine without spring, whose
-force is constant over the time of the test, accelerates the gap by g. The distance to the floor
-then obeys Z2'' = g - r1 (1 + 1/rm) f.
+0.5). Here the loose mass is the ball, and one wall is the floor. A machine without spring, under a
+force that is constant over the time of the test, accelerates the gap by g. The distance to the
+floor then obeys Z2'' = g - r1 (1 + 1/rm) f.
 """
 
 import numpy as np

@@ -35,9 +35,9 @@ def pieces(branches) -> pd.DataFrame:
 
     `lower` and `upper` are the ends in W. `size` is the mean max |Z1| of both orbits. `amplitude`
     and `loose` are means of the complex first harmonic of Z1. The phase of `amplitude` is relative
-    to Z2, the phase of `loose` to Z1 - Z2. `size_change` is the size of the second orbit minus the
-    size of the first, and so on. `fewest` and `contacts` are the least and largest number of
-    contacts. `restitution` is the least (departure speed) / (approach speed).
+    to Z2, the phase of `loose` to Z1 - Z2. For a column `x`, `x_change` is x of the second orbit
+    minus x of the first orbit. `fewest` is the least, `contacts` the largest number of contacts.
+    `restitution` is the least (departure speed) / (approach speed).
     """
     number = branches.orbit_branch.values
     first = np.flatnonzero(number[1:] == number[:-1])

@@ -1,4 +1,4 @@
-"""Promises of dampers as they are built hold in a simulator that shares no code with the library."""
+"""Dampers as they are built keep their promises in a simulator without code of the library."""
 
 import numpy as np
 import pytest

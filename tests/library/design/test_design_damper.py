@@ -88,7 +88,7 @@ def test_ctrl_c_is_heard_while_motions_run(tmp_path):
 
 
 def quick(monkeypatch, function=machines.design_damper, **changed):
-    """Return a decision without additions."""
+    """Return a design that consists of its decision only."""
     for name in list(additions.ADDITIONS):
         monkeypatch.delitem(additions.ADDITIONS, name)
     given = SMALL | {"effort": idm.Effort(**EFFORT)} | changed

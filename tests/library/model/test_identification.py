@@ -29,7 +29,7 @@ def moved(cubic, force, w, start, times):
 
 
 def check(found, names, cubic):
-    """Errors are below 3 standard uncertainties. Uncertainties are below 3 % of the largest value."""
+    """Errors are below 3 standard uncertainties, uncertainties below 3 % of the largest values."""
     true = TRUE | {"cubic_stiffness": cubic}
     for name in names:
         error = found.uncertainties[name]
