@@ -82,7 +82,7 @@ def accuracy(datasets):
 
 
 def _factor(one, other):
-    """Return the larger of two positive numbers divided by the smaller."""
+    """Return (larger number) / (smaller number) of two positive numbers."""
     return max(one / other, other / one)
 
 
