@@ -20,14 +20,14 @@ from impact_damper.motions import ensemble, records, traces
 from impact_damper.motions.start_states import free_motions
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, STROBE, strobe_time
 
-# Proof of a neighbourhood. STEPS: time steps in a forcing cycle. FACTOR: largest allowed ratio of
-# the ellipse's radii after and before a period. HALVINGS: bisections in the search for the radius.
+# Proof of a neighbourhood. STEPS: time steps in a forcing cycle. FACTOR: largest ratio of the
+# radius after a period to the first radius. HALVINGS: bisections in search of the first radius.
 STEPS, FACTOR, HALVINGS = 256, 0.98, 30
 # ALIKE: two free orbits are equal if their states at the strobe differ by less than this number.
 # SAME: two motions with the damper are equal if their max |Z1| differ by less than this fraction.
 ALIKE, SAME = 1e-6, 1e-5
-# Grid of states for the search for orbits. REACH: width of the grid along Z1 over the largest |Z1|
-# of free motions, and along Z1' over the largest |Z1'|. SEARCHED: number of points on each axis.
+# Grid of states in the search for orbits. REACH: width along Z1 divided by largest |Z1| of free
+# motions, width along Z1' divided by largest |Z1'|. SEARCHED: number of points on each axis.
 REACH, SEARCHED = 3.0, 24
 # Labels of unsettled motions, by outcome. The label of a settled motion is its attractor's index.
 LABELS = {
@@ -39,16 +39,16 @@ LABELS = {
     records.DRIFTING: BASIN_LABEL["no_contact"],
     records.QUASI_PERIODIC: BASIN_LABEL["quasi_periodic"],
 }
-# Release set. PHASES: number of phases in a cycle, even. WIDTH: grid's half width over max |Z1| of
-# the resonance motion. REFINED: width of a coarse cell over width of a fine cell, a power of 2.
+# Release set. PHASES: number of phases in a cycle, even. WIDTH: half width of the grid divided by
+# max |Z1| of the resonance motion. REFINED: coarse cell's width / fine cell's width, a power of 2.
 PHASES, WIDTH, REFINED = 16, 1.6, 4
 
 
 class Attractors(NamedTuple):
     """Stable orbits of the free oscillator, in order of max |Z1|, with m neighbourhoods.
 
-    Neighbourhood k belongs to the orbit with the index owner[k]. It contains a state z at the
-    strobe if |shape[k] (z - centre[k])| < 1. If its proof fails, shape[k] is infinite.
+    Neighbourhood k, of the orbit with the index owner[k], contains a state z at the strobe if
+    |shape[k] (z - centre[k])| < 1. If the proof fails, shape[k] is infinite.
     """
 
     records: np.ndarray
@@ -65,7 +65,7 @@ def find_attractors(p, states, settling) -> Attractors:
 
 
 def free_attractors(p, window, settling) -> Attractors:
-    """Return the `Attractors` to which a grid of states leads; `window` holds its half widths."""
+    """Return the `Attractors` to which states on a grid lead; `window`: half widths of the grid."""
     grid = [np.linspace(-half, half, SEARCHED) for half in window]
     states = np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2)
     return find_attractors(p, states, settling)
@@ -117,7 +117,7 @@ def linear_flow(p, state, periods):
 
 
 def neighbourhood(p, state, periods):
-    """Return the matrix S of the neighbourhood |S (z - state)| < 1, or infinities without proof."""
+    """Return the matrix S of the neighbourhood |S (z - state)| < 1; infinite if the proof fails."""
     displacement, matrices = linear_flow(p, state, periods)
     values, vectors = np.linalg.eig(matrices[-1])
     if not np.max(np.abs(values)) < 1:
@@ -160,8 +160,8 @@ def _radius(coefficients, step, contraction):
 def label_damped(p, states, phase, settling, known=(), workers=1, progress=None):
     """Run motions with the damper from states (n, 4); return labels, cycles run, and attractors.
 
-    A label is the index of an attractor or a flag of `basin_label`. In the list of attractors the
-    new ones, in order of max |Z1|, follow the `known` ones. `phase` is the forcing phase at first.
+    A label is the index of an attractor or a flag of `basin_label`. New attractors, in order of
+    max |Z1|, follow the `known` ones. `phase` is the forcing phase of the states.
     """
     begin = phase % (2 * np.pi) / p[FREQUENCY]
     if begin > strobe_time(p):
@@ -205,8 +205,8 @@ class ReleaseSet(NamedTuple):
 def release_set(oscillator, frequency, settling, *, cells=64, workers=1) -> ReleaseSet:
     """Compute the release set at one frequency, on a grid of states at each of PHASES phases.
 
-    The goal equals its mirror image. So half a cycle after a phase the set is the mirror image of
-    the set at the phase. Motions are run from half of the phases only.
+    The goal equals its mirror image. So the set at the phase W T + pi is the mirror image of the
+    set at the phase W T, and motions are run only from phases below pi.
     """
     p = pack(oscillator, None, frequency)
     known = free_motions(oscillator, frequency, settling)

@@ -21,7 +21,7 @@ RESOLUTION = 1e-8
 
 
 class Followed(NamedTuple):
-    """The last two parameter values, their two orbits, the last status, and if `target` was met."""
+    """The last two parameter values, their two orbits, last status, if the target is reached."""
 
     values: tuple[float, float]
     orbits: tuple
@@ -58,7 +58,7 @@ def follow(
     `correct(value, predicted state)` returns an orbit (None on failure) and a status. The first
     step leads to `target`. A step fails if `correct` fails, or if Z1, Z1' or Z2 changes by `reach`
     or more, since the new orbit may then lie on another branch. After a success the step is
-    multiplied by `growth`, after a failure it is halved. A step below `shortest` ends the search.
+    multiplied by `growth`, after a failure halved. A step below `shortest` ends the following.
     If the orbit `behind` at the value 2 start - target is given, the first prediction uses it too.
     """
     value, step, status = start, target - start, ""

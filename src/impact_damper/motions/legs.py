@@ -1,7 +1,7 @@
 """Legs of a run of migration control. A leg is the motion between two switchings of the damper.
 
 A switching, at any forcing phase, changes neither Z1 nor Z1'. A motion that has settled goes on
-from its own last state, not from the orbit's. So Z1 and Z1' are continuous over the whole run.
+from its last state, not from a state of the orbit. So Z1 and Z1' are continuous in the whole run.
 """
 
 import math
@@ -101,7 +101,7 @@ def wait_and_switch(before, after, y, wait, place, tolerance):
 
 
 def hold_by_state(off, on, y, wait, place, strobe, tolerance, longest, releases):
-    """Wait, switch the damper on, and later off; return the path while it is on, rows as in `run`.
+    """Wait, switch the damper on, later off; return the path with the damper on, rows as in `run`.
 
     The damper is switched off when the state is in the release set `releases`, or after `longest`
     cycles. The state after switching off replaces y and is the last row of the path.

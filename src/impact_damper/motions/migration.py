@@ -191,11 +191,11 @@ def destination(known, record):
 def control(case, draws, longest_hold, settling, periods, releases, stop=NEVER):
     """Return the path and the log (`SWITCHING`) of one run of migration control.
 
-    A row of `draws` holds three numbers from 0 to 1: the wait before the damper is switched on,
-    over the motion's period; the place of the loose mass in the gap; and the wait before the damper
-    is switched off, over the motion's period. `releases` is the `ReleaseSet` for release by state,
-    otherwise None. The path (m, 5) has a row for each strobe and for each switching. A row holds
-    the forcing cycles since the first strobe, and the state.
+    A row of `draws` holds three numbers from 0 to 1: the wait before the damper is switched on, as
+    a fraction of the motion's period; the place of the loose mass in the gap; the wait before the
+    damper is switched off, as a fraction of the motion's period. `releases` is the `ReleaseSet` for
+    release by state, otherwise None. The path (m, 5) has a row for each strobe and each switching.
+    A row holds the forcing cycles since the first strobe, and the state.
     """
     y, period, strobe, path = case.state.copy(), 1, 0.0, []
     tolerance, limit = settling.tolerance, settling.limit

@@ -20,7 +20,7 @@ from impact_damper.model.packed import FREQUENCY
 from impact_damper.motions.strobe_map import STROBE, distance, speed_weight, strobe_time
 from impact_damper.motions.traces import record_beginning
 
-# A harmonic whose ratio to another harmonic is at most this number is a rounding error, no phase.
+# Largest ratio to another harmonic of a harmonic that is only a rounding error and has no phase.
 PHASELESS = 1e-9
 # Largest asymmetry of a symmetric motion.
 SYMMETRIC = 1e-6
@@ -39,7 +39,7 @@ ESCAPED, AT_REST, QUASI_PERIODIC, DRIFTING = range(5, 9)
 # Fields of a record. A run fills the fields up to `state`, `measure` the fields after `state`.
 # period       period of the orbit in forcing cycles, 0 without an orbit
 # periods_run  forcing cycles until the outcome was known
-# residual     largest difference between the state and the state a period later
+# residual     largest component of the difference between states a period apart
 # state        state at the strobe: on the orbit if settled, otherwise the last state of the run
 # reach        largest (Z1^2 + (Z1'/W)^2)^(1/2) at a strobe after the first patience/2 cycles
 WATCHED = "residual lyapunov_exponent lyapunov_error first_frequency second_frequency"
@@ -58,10 +58,10 @@ def survey(p, states, phases, times, tolerance, log, sums):
     """Run a motion in m segments; record contacts, the largest |Z1| and first harmonics.
 
     `states` (m, 4) holds the first state of each segment; the segment's last state replaces it.
-    `phases` and `times` (m + 1,) are W T and T where segments begin, and at the last end. `log`
-    (n, 5) receives the first n contacts, in rows as in `traces.trace`. sums[0] receives the real
-    and the imaginary part of Z1's first harmonic, the mean of 2 exp(-i W T) Z1. sums[1] receives
-    the first harmonic of Z2. Return the number of contacts and the largest |Z1|.
+    `phases` and `times` (m + 1,) are W T and T at the beginnings of segments and at the end of the
+    last. `log` (n, 5) receives the first n contacts, in rows as in `traces.trace`. sums[0] receives
+    the real and the imaginary part of the mean of 2 exp(-i W T) Z1, the first harmonic of Z1.
+    sums[1] receives the first harmonic of Z2. Return the number of contacts and the largest |Z1|.
     """
     work, start = workspace(), np.empty(4)
     frequency, spacing = p[FREQUENCY], 2.0 * math.pi / SAMPLES
@@ -104,7 +104,7 @@ def survey(p, states, phases, times, tolerance, log, sums):
 
 @kernel_only
 def add_samples(c, order, moments, sample, count, sums):
-    """Add `count` values of a polynomial times cosine to sums[0], and times sine to sums[1]."""
+    """Add `count` polynomial values times COSINE to sums[0], and the values times SINE to sums[1]."""
     t0, t1, t2, t3 = moments
     v0 = v1 = v2 = v3 = c[order]
     for k in range(order - 1, -1, -1):
@@ -209,9 +209,9 @@ def envelope(parameters, lengths, y, tolerance):
     """Run a motion through n windows of time, with packed parameters (n, COUNT) and `lengths` (n,).
 
     Return two arrays (n,): the largest |Z1| in each window, and the number of contacts begun. In
-    the window of an escape they are infinity and NaN, in later windows both are NaN. The last state
-    replaces y. Each window begins at the strobe, where the forcing is 0 and W may therefore change.
-    If there is forcing, each window must be one forcing cycle long.
+    the window of an escape |Z1| is infinite and the number NaN, in later windows both are NaN. The
+    last state replaces y. Each window begins at the strobe. The forcing is 0 there, so W can change
+    between windows. If there is forcing, each window must be one forcing cycle long.
     """
     largest, contacts = np.full((2, len(lengths)), np.nan)
     side = side_of(next(iter(parameters)), y)

@@ -25,7 +25,7 @@ from impact_damper.motions.watch import NEAR
 
 # Runs that measure lives. APART: largest random change of Z1 and of Z1' in the first state of a
 # run. CAPTURE: distance from an orbit at which a transient ends. CHECKED: further forcing cycles of
-# a run that has not ended. They show whether its motion is still chaotic.
+# a run that has not ended. These cycles show whether the motion is still chaotic.
 APART, CAPTURE, CHECKED = 1e-4, 0.1, 300
 
 
@@ -153,13 +153,13 @@ def find_lives(parameters, outcomes, states, runs, periods, seed, settling, **ru
 def _lives(parameters, states, periods, settling, **running):
     """Return the life of each transient in forcing cycles, or `periods` + 1 if it does not end.
 
-    A run ends at the distance NEAR from an orbit, a life at CAPTURE; the difference is subtracted.
+    A life ends at the distance CAPTURE from an orbit, the run at NEAR. The time between is no life.
     """
     records, stop = np.zeros(len(states), MOTION), np.zeros(1, bool)
 
     def work(part):
         begin = 0.5 * np.pi / parameters[part, FREQUENCY]
-        # The patience exceeds 2 x limit: no run is stopped as chaotic, and tangents never begin.
+        # The patience exceeds 2 x limit: no run is stopped as chaotic, and no tangent is computed.
         settings = settling.tolerance, 2 * periods + 2, periods
         settle_many(parameters[part], states[part], begin, *settings, records[part], stop)
 

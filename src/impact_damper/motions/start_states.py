@@ -29,20 +29,20 @@ from impact_damper.theory.single_harmonic import impacting_solutions
 # Search for free motions. PHASES: number of starts on a solution of harmonic balance. SAMPLES:
 # samples in a forcing cycle. MOST_STATES: largest number of states that are stored for one motion.
 PHASES, SAMPLES, MOST_STATES = 6, 256, 5
-# Random starts. SPREAD: size of the largest random start over size of the largest free motion.
-# SMALLEST: size of the smallest random start over size of the largest random start.
+# Random starts. SPREAD: size of the largest start divided by the size of the largest free motion.
+# SMALLEST: size of the smallest start divided by the size of the largest start.
 SPREAD, SMALLEST = 3.0, 0.01
-# Placed starts. PLACES: Z2 over the clearance. VELOCITIES: Z2' over the crossing speed at rest; on
-# free motions, over the larger of the crossing speed and the largest |Z1'| of free motions.
+# Placed starts. PLACES: Z2 divided by the clearance. VELOCITIES: Z2' divided by the crossing speed
+# or, on free motions, by max(crossing speed, largest |Z1'| of free motions).
 PLACES, VELOCITIES = (-2 / 3, 0.0, 2 / 3), (-1.0, 0.0, 1.0)
 # States of the loose mass for `sweep.stable_orbits`. LOOSE_STATES: number of states. LOOSE_SPEED:
-# largest |Z1' - Z2'| over the larger of the crossing speed and the largest |Z1'| of free motions.
+# largest |Z1' - Z2'| divided by max(crossing speed, largest |Z1'| of free motions).
 LOOSE_STATES, LOOSE_SPEED = 240, 2.0
 # With a softening spring |Z1| and |Z1'| of random starts are at most WITHIN times `barrier`.
 WITHIN = 0.7
 NO_STARTS, NO_LOOSE = np.empty((0, 4)), np.empty((0, 2))
 # Ramps. STEP: relative change of a parameter in a step. PERIODS: forcing cycles in a step. RAISED:
-# first force over last force. BELOW: a ramp up to W begins at BELOW min(W/2, lowest frequency of a
+# ratio of first to last force. BELOW: a ramp up to W begins at BELOW min(W/2, lowest frequency of a
 # fold), a ramp down to W begins at max(2 W, highest frequency of a fold) / BELOW.
 STEP, PERIODS, BELOW, RAISED = 0.0125, 20, 0.9, 5.0
 
@@ -108,7 +108,7 @@ def missed_share(starts) -> float:
 
 
 def free_sizes(oscillator, frequencies) -> dict:
-    """Return a dict: frequency to largest |Z1| and |Z1'| of free motions, by harmonic balance."""
+    """Return a dict from frequency to largest |Z1| and |Z1'| of free motions (harmonic balance)."""
     sizes = {w: float(balance_amplitudes(oscillator, w)[-1]) for w in dict.fromkeys(frequencies)}
     return {w: (size, size * w) for w, size in sizes.items()}
 
@@ -216,7 +216,7 @@ def ramped(oscillator, damper, frequency, tolerance) -> list:
 
 
 def _ramp(target, indices, factor, tolerance):
-    """Run from rest while parameters go from `factor` x `target` to `target`; return the state."""
+    """Ramp parameters from `factor` x `target` to `target`, from rest; return the last state."""
     p, state, none = target.copy(), np.zeros(4), np.empty((0, 4))
     for exponent in np.linspace(1, 0, 2 + math.ceil(abs(math.log(factor)) / STEP)):
         p[indices] = target[indices] * factor**exponent
@@ -229,7 +229,7 @@ def _ramp(target, indices, factor, tolerance):
 
 
 def barrier(oscillator):
-    """Return |Z1| at the barrier of a softening spring, and the speed at Z1 = 0 that reaches it."""
+    """Return |Z1| at a softening spring's barrier, and the speed at Z1 = 0 to reach the barrier."""
     stiffness, softening = oscillator.linear_frequency**2, -oscillator.cubic
     return math.sqrt(stiffness / softening), stiffness / math.sqrt(2 * softening)
 

@@ -1,4 +1,4 @@
-"""The strobe map, from the state at a strobe to the state at the next, and Newton's method on it.
+"""The strobe map, from the state at a strobe to the next strobe; Newton's method for its orbits.
 
 The strobe is the forcing phase W T = pi/2. The contacts of a damper at its design point occur near
 W T = 0 and W T = pi. The strobe lies midway between these contacts.
@@ -51,7 +51,7 @@ def speed_weight(p, side):
 
 @kernel
 def distance(a, b, weight):
-    """Return the largest component of |a - b|, in which the component of Z2' is times `weight`."""
+    """Return the largest component of |a - b|. Its component of Z2' is multiplied by `weight`."""
     d = max(abs(a[0] - b[0]), abs(a[1] - b[1]))
     return max(d, max(abs(a[2] - b[2]), weight * abs(a[3] - b[3])))
 
@@ -172,7 +172,7 @@ def polish(p, y, periods, reach, tolerance):
 
 @kernel
 def repeats_sooner(p, y, periods, tolerance):
-    """Return whether an orbit repeats already after a divisor of `periods` below `periods`."""
+    """Return whether an orbit repeats after fewer cycles (a proper divisor of `periods`)."""
     work = workspace()
     none = np.empty((0, 4))
     state = y.copy()

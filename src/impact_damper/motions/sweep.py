@@ -22,14 +22,14 @@ from impact_damper.motions.records import MOTION, measured, tabulate
 from impact_damper.motions.steady import run_chunks
 from impact_damper.motions.strobe_map import STROBE, distance, flow, polish, strobe_time
 
-# Two records of one motion differ by less than this. SAME: relative difference of max |Z1|; SAME is
-# also the largest asymmetry of a symmetric motion. ROUNDING: difference of max |Z1| near rest.
+# Bounds for two records of one motion. SAME: relative difference of max |Z1|. SAME is also the
+# largest asymmetry of a symmetric motion. ROUNDING: difference of max |Z1| near rest.
 # SIMILAR: `size_ratio` of motions that have not settled.
 SAME, ROUNDING, SIMILAR = 1e-6, 1e-11, 1.5
 # Outcomes with infinite or zero max |Z1|. All motions with one such outcome count as one motion.
 ALIKE = tuple(flag("outcome", name) for name in ("diverged", "escaped", "at_rest"))
 # Newton's method for further orbits. LONGEST: longest period in cycles. REACH: largest distance of
-# an orbit from its start, over the largest of |Z1| and |Z1'| of known motions and the clearance.
+# an orbit from its start, divided by max(|Z1| and |Z1'| of known motions, clearance).
 # SAME_ORBIT: largest difference between states of equal orbits.
 LONGEST, REACH, SAME_ORBIT = 5, 1.0, 1e-6
 # Events at the end of a branch. CRITICAL: smallest modulus of the multiplier at a bifurcation.
@@ -92,7 +92,7 @@ def reached(data):
 def _follow(source, target, index, settling, links, ends):
     """Follow all motions of the catalogue `source` to the next value; add them to `target`.
 
-    `links` receives pairs of numbers of motions on one branch, `ends` a dict for each branch's end.
+    `links` receives pairs of numbers of motions on one branch, `ends` a dict for each end found.
     """
     followed = [
         follow_stable(source.p, record["state"], record["period"], index, target.p[index])
@@ -214,7 +214,7 @@ class Catalogue:
         return None
 
     def add(self, record, origin):
-        """Add a motion, or raise the record of a known one to larger max |Z1|; return the index."""
+        """Add a motion, or replace a known motion's record if max |Z1| grows; return the index."""
         i = self.find(record)
         if i is None:
             i = len(self.records)
@@ -253,7 +253,7 @@ def match_unsettled(first, second) -> list:
 def size_ratio(one, other):
     """Return the ratio, at least 1, of max |Z1| of two motions of equal period.
 
-    Without a period max |Z1| may be small by chance. Then return the ratio of `reach` if smaller.
+    Without a period max |Z1| may be small by chance. Then return the ratio of `reach` if less.
     """
     if one["maximum_displacement"] == other["maximum_displacement"]:
         return 1.0

@@ -30,14 +30,14 @@ GROWN = 40.0
 NEUTRAL = 3.0
 # Search for an orbit. LONGEST: longest period in forcing cycles. REACH: largest correction.
 LONGEST, REACH = 256, 1e-2
-# Largest distance of states from points of known closed curves, if the states lie on these curves.
+# States lie on known closed curves if each state is nearer than NEIGHBOUR to a point of a curve.
 NEIGHBOUR = 1e-3
 # Fields that are copied from a known quasi-periodic motion to a motion on the same closed curves.
 TORUS = ["outcome", "lyapunov_exponent", "lyapunov_error"]
 TORUS += ["first_frequency", "second_frequency", "frequency_error"]
 # Rotation number. AGREEMENT: largest error. FEWEST: smallest number of points to compute it from.
 AGREEMENT, FEWEST = 1e-8, 100
-# Advances of an angle modulo 1 lie on a circle. INTERVAL: shortest empty part that can be cut.
+# Advances of an angle modulo 1 lie on a circle, cut in an empty interval. INTERVAL: least length.
 INTERVAL = 0.02
 # Points are sorted by phase. TURN: largest change of the angle from point to point, in revolutions.
 # WANDERING: largest sum of the moduli of all changes of the angle from point to point.
@@ -69,7 +69,7 @@ def run_block(p, y, tangent, states, growth, stop):
 def name_undecided(parameters, motions, limit, further, stop):
     """Continue the forced motions that `settle_many` left unresolved; complete their records.
 
-    Each block of cycles is twice as long as the block before. All blocks have at most `further`.
+    Each block is twice as long as the block before. All blocks have at most `further` cycles in sum.
     """
     curves = []
     for i in np.flatnonzero(motions["outcome"] == records.UNRESOLVED):
@@ -193,7 +193,7 @@ def _quasi_periodic(p, record, states, mean, error):
 
 
 def birkhoff_average(values):
-    """Return the mean of a sequence with weights exp(-1/(t (1 - t))), t from 0 to 1 along it."""
+    """Return the mean of a sequence with weights exp(-1/(t (1 - t))); t increases from 0 to 1."""
     t = np.arange(1, len(values) + 1) / (len(values) + 1)
     weights = np.exp(-1 / (t * (1 - t)))
     return np.sum(weights * values) / np.sum(weights)
@@ -237,7 +237,7 @@ def _rounded(points):
 
 
 def _goes_around_once(angle, number):
-    """Return whether angles (revolutions), sorted by k x number modulo 1, make one smooth turn."""
+    """Return whether angle[k], in revolutions, makes one smooth turn as k x number mod 1 grows."""
     order = np.argsort(np.arange(len(angle)) * number % 1)
     turns = np.diff(angle[order], append=angle[order[0]])
     turns -= np.round(turns)

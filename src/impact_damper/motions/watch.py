@@ -39,7 +39,7 @@ NEAR, NEAREST = 1e-4, 1e-9
 # distances between states a period apart that must have decreased. NONLINEAR: largest nonlinear
 # part in `is_linear`. APPROACH: largest number of further periods that `is_linear` computes.
 EARLY, RETURNS, NONLINEAR, APPROACH = (1e-2, 1e-3), 4, 0.1, 1000
-# Largest energy of an unforced motion that counts as rest, over the motion's first energy.
+# Largest energy of an unforced motion that counts as rest, divided by the motion's first energy.
 REST = 1e-9
 # Data of one motion while it runs. untouched: forcing cycles since the last contact. near, early:
 # distances at which Newton's method is tried next. periods: number of cycles with a tangent. batch:
@@ -80,7 +80,7 @@ def follow_tangent(tangent, growth):
 
 @kernel
 def exponent(growth):
-    """Return the mean growth in a batch, the mean's error, and if recent growth exceeds half it."""
+    """Return mean growth in a batch, the mean's error, and whether recent growth exceeds mean/2."""
     count = growth.periods // BLOCK
     recent = 0.0
     for i in range(RECENT):
@@ -156,7 +156,7 @@ def is_linear(p, y, ring, k, n, weight):
     In a period the difference e from the orbit becomes M e + r, with a matrix M. If |r| <= c |e|^2
     and c times the sum of all further |e| is small, the motion tends to the orbit. The number c is
     measured in the last two periods only, which lie farther from the orbit than all later periods.
-    In longer runs none of 7 000 motions left its orbit. So at most 0.05 % do (95 % confidence).
+    In longer runs none of 7 000 motions left its orbit: at most 0.05 % leave (95 % confidence).
     """
     _, matrix, contacts = period_map(p, y, n, POLISH_TOLERANCE)
     # A loose mass that drifts slowly may still reach a wall.

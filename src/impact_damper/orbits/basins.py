@@ -39,7 +39,7 @@ from impact_damper.orbits.shooting import find_orbit
 WIDTH = 1.5
 # Number of states on each axis of the grid of first guesses for unstable orbits.
 NEWTON = 16
-# A search for further attractors begins at TRIED or more unresolved states, or at all if fewer.
+# A search for further attractors uses TRIED to 2 TRIED unresolved states, or all if fewer exist.
 TRIED = 64
 # Default places Z2/d0 of the loose mass. Each state (Z1, Z1') of the plane is run with each place.
 PLACES = (-0.8, -0.4, 0.0, 0.4, 0.8)
@@ -120,7 +120,7 @@ def basins(
 
         - the share of states that lead to the attractor, and these states' median convergence time;
         - the longest convergence time after `shock`, infinite if a motion does not return;
-        - the finite-time basin stability: the share of states that lead there in `within` cycles;
+        - the finite-time basin stability: the share that leads to the attractor in `within` cycles;
         - the minimal critical shock: the smallest impulse at `phase` after which the motion does
           not return. Impulses are tried up to the largest |Z1'| of the plane.
 
@@ -412,7 +412,7 @@ def robustness(p, found, phase, widest, shock, within) -> dict:
 
 
 def _after(found, index, states, shocks):
-    """Return for each shock whether it leads to another motion, and the cycles until known."""
+    """Return for each shock whether it leads to another motion, and the cycles run to know this."""
     pushed = np.repeat(states, len(shocks), axis=0)
     pushed[:, 1::2] += np.tile(shocks, len(states))[:, None]
     labels, periods = (each.reshape(len(states), -1) for each in found.label(pushed))

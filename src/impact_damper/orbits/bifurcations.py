@@ -1,6 +1,6 @@
 """Locate bifurcations (zeros of test functions) and changes of contact on a step of a branch.
 
-The place of an event is the distance along the first tangent, in a grazing the extremum's height.
+The place of an event is the distance along the step's first tangent or, in a grazing, the height.
 """
 
 from functools import partial
@@ -20,7 +20,7 @@ PLACE = 1e-12
 COMPLEX = 1e-6
 # Orbits beside a bifurcation may be stable if no multiplier has a modulus above 1 + NEAR_CIRCLE.
 NEAR_CIRCLE = 1e-3
-# Longest flight, in forcing cycles, between two contacts with one wall that merge.
+# Two contacts with one wall merge if the flight between them is below MERGED forcing cycles.
 MERGED = 1e-3
 # Largest number of changes of contact that are located on one step.
 MOST_CHANGES = 8

@@ -18,15 +18,15 @@ SAME = 1e-5
 # An orbit can lie on a step only if max |Z1| of the orbit and max |Z1| at the step's beginning
 # differ by at most NEARBY plus the change of max |Z1| on the step.
 NEARBY = 0.02
-# Packed parameters are extrapolated to parameters at most EXTENDED beyond the parameter's range.
+# Largest distance beyond the range of the parameter to which packed parameters are extrapolated.
 EXTENDED = 1e-3
 # A branch has lost its contacts if all contacts of its last orbit begin at speeds below WEAK.
 WEAK = 0.02
 # A fold is a meeting with a branch of more symmetry (symmetric orbits, or half the period) if
 # `Orbit.deviation` at the fold is below VANISHED times the deviation at the point before.
 VANISHED = 0.5
-# CLOSE_STEP: a grazing is searched for if a step changes contacts, or if a step shorter than this
-# fails. If no grazing is found, a step longer than CLOSE_STEP that changes contacts is halved.
+# A grazing is searched for if a step changes contacts, or if a step shorter than CLOSE_STEP fails.
+# If no grazing is found, a step longer than CLOSE_STEP that changes contacts is halved.
 # REACH: largest distance of the grazing, divided by the length of the step.
 CLOSE_STEP, REACH = 2e-3, 8.0
 # A step longer than CLEAR_STEP is halved if an event on the step was not located, or if the step
@@ -194,7 +194,7 @@ def _next_pieces(point, span, length, search):
         return [], 0.5, search
     along = (point.problem.metric * (ahead.x - point.x)) @ point.tangent
     located, missed = events_between(point, ahead, along)
-    # Where a branch meets a branch of more symmetry, it has a fold.
+    # A branch has a fold where it meets a branch of more symmetry.
     crosses = point.orbit.deviation @ ahead.orbit.deviation < 0
     unseen = crosses and not any(event.kind == "fold" for event in located)
     if length > CLEAR_STEP and (missed or unseen):

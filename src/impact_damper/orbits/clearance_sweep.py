@@ -154,8 +154,8 @@ def _peak_rule(oscillator, mass_ratio):
 def _quiet_motions(data, clearances, rule):
     """Return the state and max |Z1| of the quiet motion at each clearance, and an index or None.
 
-    The index points to the clearance closest to `rule` at which a quiet motion exists. At other
-    clearances only motions on the branch of this motion count. Without one max |Z1| is NaN.
+    The index points to the clearance closest to `rule` with a quiet motion. At other clearances
+    only motions on the branch of this motion count. Without a quiet motion max |Z1| is NaN.
     """
     names = "outcome period contacts asymmetry maximum_displacement branch state"
     table = {name: data[name][1] for name in names.split()}
@@ -171,7 +171,7 @@ def _quiet_motions(data, clearances, rule):
 
 
 def _stable_part(p, state, span):
-    """Return clearances (n,) on a branch's stable part, max |Z1| (n,), and max |Z1| as function."""
+    """Return clearances and max |Z1| on a branch's stable part, and max |Z1| as a function."""
 
     def family(clearance):
         changed = p.copy()
@@ -246,7 +246,7 @@ def _stationary(size_at, best):
 def _kind(size_at, best, least, longest):
     """Return "smooth" or "kink", the kind of the minimum of max |Z1| at the clearance `best`.
 
-    At half the distance from the minimum max |Z1| has risen a quarter (smooth) or half (kink).
+    If the distance from the minimum is halved, the rise falls to a quarter (smooth) or half (kink).
     """
     steps = longest, longest / 2
     rises = [size_at(best + step) + size_at(best - step) - 2 * least for step in steps]

@@ -268,13 +268,13 @@ def _cubic(point, ahead, fraction):
 # radian, between the tangents at the step's ends. SKEW: length of the difference between the unit
 # vector along the chord and the unit vector along the mean tangent.
 TURNED, SKEW = 0.5, 0.03
-# AIM: a step aims at AIM x TURNED and AIM^2 x SKEW. GROWTH: largest ratio of a step to the step
-# before. SHRINKAGE: smallest ratio of a step to a step before it that was not accepted.
+# AIM: steps should have the angle AIM x TURNED or the length AIM^2 x SKEW. GROWTH: largest ratio of
+# a step to the step before. SHRINKAGE: smallest ratio of a step to the rejected step before.
 AIM, GROWTH, SHRINKAGE = 0.65, 1.5, 0.3
 
 
 def next_point(point, span, length):
-    """Return the next point within `span`, or None, and the next step's length over `length`."""
+    """Return the next point within `span`, or None, and the ratio of the next step to `length`."""
     problem = point.problem
     bent = length**2 / 2 * point.bend + length**3 / 6 * point.twist
     ahead = problem.near(point.x + length * point.tangent + bent, point.tangent, length)

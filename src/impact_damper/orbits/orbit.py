@@ -22,8 +22,8 @@ from impact_damper.orbits.segments import flow_all
 
 # Length of a forcing cycle as a phase, radian.
 TURN = 2 * math.pi
-# Largest residual of a converged orbit over max(1, largest component of a state): RESIDUAL; with
-# contacts the larger of RESIDUAL and STIFF_RESIDUAL x (natural frequency of a contact).
+# Largest residual of a converged orbit, divided by max(1, largest component of a state): RESIDUAL,
+# or with contacts max(RESIDUAL, STIFF_RESIDUAL x natural frequency of a contact).
 RESIDUAL, STIFF_RESIDUAL = 1e-12, 7e-15
 # Smallest distance of the first phase of an orbit from a contact, radian.
 MARGIN = 0.15
@@ -206,7 +206,7 @@ class Orbit:
 
     @cached_property
     def deviation(self):
-        """First state minus the state half a period later, shape (4,); their sum if n is odd.
+        """First state minus (if `periods` is odd, plus) the state half a period later, shape (4,).
 
         The deviation changes its sign where a branch meets a branch of symmetric orbits or of half
         the period. If `sign` is -1, all entries are 1.

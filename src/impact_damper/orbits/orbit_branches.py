@@ -96,7 +96,7 @@ def orbit_branches(
     motions=None,
     progress=None,
 ):
-    """Follow branches of periodic orbits over a parameter, stable or not.
+    """Follow branches of periodic orbits, stable or not, over a parameter.
 
     With a frequency and a state, the function follows the branch of the orbit near the state. With
     `motions`, it follows over the frequency every branch through a settled motion, and in addition
@@ -147,7 +147,7 @@ def orbit_branches(
     TypeError, ValueError
         If an argument is of another type or out of range.
     ArithmeticError
-        If Newton's method finds no orbit, or an orbit that repeats after a divisor of the period.
+        If Newton's method finds no orbit, or one that repeats after a divisor of the period.
 
     Examples
     --------
@@ -229,7 +229,7 @@ def _checked_orbit(model, state, period, phase):
 
 
 def _seeds(motions, damper):
-    """Yield period, frequency, max |Z1|, state of settled motions; with a damper, with contacts."""
+    """Yield period, frequency, max |Z1|, state of settled motions (damped: only with contacts)."""
     for data in motions:
         chosen = data["outcome"].values == flag("outcome", "settled")
         if damper is not None:

@@ -51,7 +51,7 @@ def find_orbit(p, state, periods=1, phase=STROBE) -> Orbit:
 def newton(orbit, reach=None) -> Orbit:
     """Return the orbit with the smallest residual among the iterates of Newton's method.
 
-    If `reach` is given, the method ends at the first converged orbit, or before moving by `reach`.
+    If `reach` is given, stop at the first converged orbit, or before a state moves by `reach`.
     """
     states, best, maps = orbit.states, orbit, 1
     for _ in range(ITERATIONS):

@@ -109,7 +109,7 @@ def _at_heights(leaving):
 # ends a branch of more symmetry is followed.
 WHOLE, STABLE, MET = (1, 3), 9, 4
 # The end of a branch lies at an event if end and event differ by less than SAME_VALUE in the
-# parameter and SAME_SIZE in max |Z1|. The end is a fold, located to 1e-7 in length of the branch.
+# parameter and SAME_SIZE in max |Z1|. Such an end is a fold, located with an error up to 1e-7.
 SAME_VALUE, SAME_SIZE = 1e-6, 1e-4
 # Largest difference of the parameter between equal bifurcations.
 NEAR = 1e-9
