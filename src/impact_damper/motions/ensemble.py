@@ -40,7 +40,7 @@ def settle(
     progress=None,
     stop=None,
 ):
-    """Run motions from states (m, 4) until `watch` stops them; return an array `records.MOTION`.
+    """Run motions from states (m, 4) until `watch` stops them; return an array of `records.MOTION`.
 
     `parameters` has a row of packed parameters for each motion. If `from_strobe`, all states are at
     the first strobe, W T = pi/2. Otherwise all states are at the time T = `start`, at most a cycle

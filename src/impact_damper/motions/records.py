@@ -104,7 +104,7 @@ def survey(p, states, phases, times, tolerance, log, sums):
 
 @kernel_only
 def add_samples(c, order, moments, sample, count, sums):
-    """Add `count` polynomial values times COSINE to sums[0], and the values times SINE to sums[1]."""
+    """Add `count` values of a polynomial times COSINE to sums[0], and times SINE to sums[1]."""
     t0, t1, t2, t3 = moments
     v0 = v1 = v2 = v3 = c[order]
     for k in range(order - 1, -1, -1):

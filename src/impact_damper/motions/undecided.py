@@ -69,7 +69,7 @@ def run_block(p, y, tangent, states, growth, stop):
 def name_undecided(parameters, motions, limit, further, stop):
     """Continue the forced motions that `settle_many` left unresolved; complete their records.
 
-    Each block is twice as long as the block before. All blocks have at most `further` cycles in sum.
+    Each block is twice as long as the one before. All blocks together have at most `further` cycles.
     """
     curves = []
     for i in np.flatnonzero(motions["outcome"] == records.UNRESOLVED):

@@ -28,7 +28,7 @@ LARGEST, CLOSE, ROUNDING = 0.5, 1e-4, 1e-14
 
 
 def at_height(problem, x, turn, height, direction):
-    """Return the point near x where the extremum `turn` has a `height`, and its `Turn`; or None."""
+    """Return the point near x where the extremum `turn` has the `height`, and its `Turn`; or None."""
     x = x.copy()
     for _ in range(NEWTON):
         orbit = problem.shoot(x)
@@ -156,7 +156,7 @@ def _targets(height, sharp, direction):
 
 # Distance along the tangent of a branch over which the change of a height is estimated.
 SHIFT = 1e-10
-# First number of rows, for each segment, of the list of extrema.
+# Number of rows for each segment that the list of extrema has at first.
 TURNS = 256
 # Largest difference, radian, between the phases of the same extremum on two neighbouring orbits.
 MOVED = 0.1
