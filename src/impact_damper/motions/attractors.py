@@ -2,7 +2,7 @@
 
 An attractor is a stable orbit; the label of a state says to which attractor the state leads. A
 neighbourhood is an ellipse around a state of a free orbit at the strobe (W T = pi/2). A motion that
-enters the ellipse tends to the orbit (proof: docs/explanation/neighbourhoods.md), so its run ends.
+enters the ellipse tends to the orbit (docs/explanation/neighbourhoods.md). Then its run ends.
 """
 
 import math

@@ -153,7 +153,7 @@ def find_lives(parameters, outcomes, states, runs, periods, seed, settling, **ru
 def _lives(parameters, states, periods, settling, **running):
     """Return the life of each transient in forcing cycles, or `periods` + 1 if it does not end.
 
-    A life ends at the distance CAPTURE from an orbit, the run at NEAR. The time between is left out.
+    A life ends at the distance CAPTURE from an orbit, a run at NEAR. The time between is left out.
     """
     records, stop = np.zeros(len(states), MOTION), np.zeros(1, bool)
 

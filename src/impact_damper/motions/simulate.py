@@ -82,7 +82,7 @@ def simulate(
           the primary mass). If a contact ends after the last sample, its end is NaN.
         - The scalar `largest_contact_force`, 0 without contacts.
         - With a softening spring: the scalar `escape_time`, NaN without an escape. A motion escapes
-          when it crosses a barrier of the spring and tends to infinity. Then its states are NaN.
+          when it crosses a barrier of the spring and tends to infinity. Later states are NaN.
 
     Examples
     --------

@@ -216,7 +216,7 @@ def ramped(oscillator, damper, frequency, tolerance) -> list:
 
 
 def _ramp(target, indices, factor, tolerance):
-    """Ramp parameters from `factor` x `target` to `target`, from rest; return the last state."""
+    """Change parameters slowly from `factor` x `target` to `target`; return the last state."""
     p, state, none = target.copy(), np.zeros(4), np.empty((0, 4))
     for exponent in np.linspace(1, 0, 2 + math.ceil(abs(math.log(factor)) / STEP)):
         p[indices] = target[indices] * factor**exponent

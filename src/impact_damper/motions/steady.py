@@ -48,7 +48,7 @@ def steady_motion(
     -------
     xarray.Dataset
         Outcome (see `decode`), period, contacts per forcing cycle, largest |Z1|, asymmetry (0 if
-        half a period shifts the motion to its mirror image), phases of first harmonics, multiplier,
+        the motion becomes its mirror image in half a period), phases of harmonics, multiplier,
         Lyapunov exponent, and the frequencies of a quasi-periodic motion. `state` is the state at
         W T = pi/2, and has this phase as a coordinate. As argument `state` of `simulate` or of this
         function it continues the motion, for example at the next frequency of a sweep.

@@ -90,7 +90,7 @@ def reached(data):
 
 
 def _follow(source, target, index, settling, links, ends):
-    """Follow all motions of the catalogue `source` to the next value; add them to `target`.
+    """Follow all motions of the catalogue `source` to the next value; add the results to `target`.
 
     `links` receives pairs of numbers of motions on one branch, `ends` a dict for each end found.
     """
@@ -190,8 +190,8 @@ def _tables(catalogues, branches, dimension, starts):
 class Catalogue:
     """Distinct motions at one value of the swept parameter, with packed parameters p.
 
-    Each motion has a record, a number from the iterator `numbering`, the flag `origin` (how it was
-    found), and the number of random starts that lead to the motion.
+    Each motion has a record, a number from the iterator `numbering`, the flag `origin` (how the
+    motion was found), and the number of random starts that lead to the motion.
     """
 
     def __init__(self, p, numbering):

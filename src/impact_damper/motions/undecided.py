@@ -37,7 +37,7 @@ TORUS = ["outcome", "lyapunov_exponent", "lyapunov_error"]
 TORUS += ["first_frequency", "second_frequency", "frequency_error"]
 # Rotation number. AGREEMENT: largest error. FEWEST: smallest number of points to compute it from.
 AGREEMENT, FEWEST = 1e-8, 100
-# Advances of an angle modulo 1 lie on a circle, cut in an empty interval. INTERVAL: least length.
+# Advances of an angle modulo 1 lie on a circle, cut in an empty interval not below INTERVAL.
 INTERVAL = 0.02
 # Points are sorted by phase. TURN: largest change of the angle from point to point, in revolutions.
 # WANDERING: largest sum of the moduli of all changes of the angle from point to point.
@@ -69,7 +69,7 @@ def run_block(p, y, tangent, states, growth, stop):
 def name_undecided(parameters, motions, limit, further, stop):
     """Continue the forced motions that `settle_many` left unresolved; complete their records.
 
-    Each block is twice as long as the one before. All blocks together have at most `further` cycles.
+    Each block is twice as long as the one before. Together they have at most `further` cycles.
     """
     curves = []
     for i in np.flatnonzero(motions["outcome"] == records.UNRESOLVED):

@@ -336,7 +336,7 @@ def run_backwards(p, states, phase, tolerance, reach):
 
 
 def stable_manifold(orbit, tolerance, window, spacing, reach):
-    """Return a list of the pieces of a saddle's stable manifold, and whether it is complete."""
+    """Return the list of pieces of a saddle's stable manifold, and whether the list is complete."""
     values, vectors = np.linalg.eig(orbit.monodromy[:2, :2])
     k = int(np.argmin(np.abs(values)))
     direction = vectors[:, k].real / np.linalg.norm(vectors[:, k].real)

@@ -28,7 +28,7 @@ LARGEST, CLOSE, ROUNDING = 0.5, 1e-4, 1e-14
 
 
 def at_height(problem, x, turn, height, direction):
-    """Return the point near x where the extremum `turn` has the `height`, and its `Turn`; or None."""
+    """Return the point near x where the extremum `turn` has `height`, and its `Turn`; or None."""
     x = x.copy()
     for _ in range(NEWTON):
         orbit = problem.shoot(x)
