@@ -57,7 +57,7 @@ class Panels(NamedTuple):
 
 
 def sampled(p, state, begin, end, tolerance) -> Panels:
-    """Run a motion from a state, from time `begin` to time `end`; return the panels of the motion."""
+    """Run a motion from a state, from time `begin` to time `end`; return the motion's panels."""
     rough = np.linspace(begin, end, int(SAMPLES * (end - begin) * p[FREQUENCY] / (2 * np.pi)) + 2)
     course = trace(p, state, begin, rough, tolerance)
     return _divided(p, state, (begin, end), course, tolerance, flights=True)

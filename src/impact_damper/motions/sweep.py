@@ -253,7 +253,7 @@ def match_unsettled(first, second) -> list:
 def size_ratio(one, other):
     """Return the ratio, at least 1, of max |Z1| of two motions of equal period.
 
-    Without a period max |Z1| may be small by chance. Then return the ratio of `reach` if less.
+    Without a period max |Z1| may be small by chance. Then the ratio of `reach` is returned if less.
     """
     if one["maximum_displacement"] == other["maximum_displacement"]:
         return 1.0

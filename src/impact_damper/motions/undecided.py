@@ -23,8 +23,8 @@ from impact_damper.motions.watch import CONFIDENCE, LONGEST_PERIOD, NEAR, normal
 # A run consists of blocks. FIRST: largest number of forcing cycles in the first block. BATCHES:
 # number of parts of a block. The standard error is computed from the means of the parts.
 FIRST, BATCHES = 1500, 30
-# Smallest growth of a chaotic motion's tangent in a block, as a natural logarithm. The growth is
-# ln(1e16) = 37 if a motion only leaves an unstable orbit because of a rounding error.
+# Smallest growth of a chaotic motion's tangent in a block, as a natural logarithm. If a rounding
+# error makes a motion leave an unstable orbit, the growth is at most ln(1e16) = 37.
 GROWN = 40.0
 # A Lyapunov exponent counts as 0 if its modulus is at most NEUTRAL standard errors.
 NEUTRAL = 3.0
@@ -237,7 +237,7 @@ def _rounded(points):
 
 
 def _goes_around_once(angle, number):
-    """Return whether angle[k], in revolutions, makes one smooth turn as k x number mod 1 grows."""
+    """Return whether angles (revolutions), sorted by index x number mod 1, make one smooth turn."""
     order = np.argsort(np.arange(len(angle)) * number % 1)
     turns = np.diff(angle[order], append=angle[order[0]])
     turns -= np.round(turns)
