@@ -24,7 +24,7 @@ from impact_damper.motions.watch import CONFIDENCE, LONGEST_PERIOD, NEAR, normal
 # number of parts of a block. The standard error is computed from the means of the parts.
 FIRST, BATCHES = 1500, 30
 # Smallest growth of a chaotic motion's tangent in a block, as a natural logarithm. If a rounding
-# error makes a motion leave an unstable orbit, the growth is at most ln(1e16) = 37.
+# error makes a motion leave an unstable orbit, the growth is only ln(1e16) = 37.
 GROWN = 40.0
 # A Lyapunov exponent counts as 0 if its modulus is at most NEUTRAL standard errors.
 NEUTRAL = 3.0

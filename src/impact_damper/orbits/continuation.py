@@ -71,7 +71,7 @@ class Problem:
     The function `family` maps the parameter to packed parameters. `loose` is (Z2 - Z1, Z2' - Z1'),
     constant without a damper. If `symmetric`, the segments cover half the period, all orbits are
     symmetric, and the equations are regular where an orbit loses its symmetry. `rough` is the
-    largest norm of a segment's derivative after the last `recut` into segments, 0 for one segment.
+    largest norm of a segment's derivative after the last `recut` into several segments, else 0.
     """
 
     family: Callable[[float], np.ndarray]

@@ -140,7 +140,7 @@ def orbit_branches(
         flight) or merging (two contacts with one wall become one, or one contact becomes two). For
         each (branch, edge): the reason why the branch ends. With `motions`: `seeds`, the number of
         settled motions (only motions with contacts if there is a damper), and `seeds_lost`, the
-        number of seeds near which no orbit was found. Mirror images count as one branch.
+        number of seeds without an orbit of equal period. Mirror images count as one branch.
 
     Raises
     ------
