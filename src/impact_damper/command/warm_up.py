@@ -56,9 +56,6 @@ def warm_up_settling() -> None:
     batch.send(pool, 0, 0.0, 0.01, False)
     batch.advance_some(pool, places, places.copy())
 
-    on, sides, times = pack(OSCILLATOR, DAMPER, FREQUENCY)[None], np.zeros(1, np.int64), np.zeros(1)
-    batch.advance(on, np.zeros((1, 4)), sides, times, times, 1e-9, sides.copy(), np.zeros(1))
-
     from impact_damper.motions import undecided
 
     p, tangent, stop = pack(OSCILLATOR, DAMPER, FREQUENCY), np.ones((1, 4)), np.zeros(1, bool)

@@ -12,9 +12,6 @@ from typing import NamedTuple
 import numpy as np
 
 from impact_damper.design.task import NOMINAL
-from impact_damper.kernel.batch import advance
-from impact_damper.kernel.single import side_of
-from impact_damper.model.packed import FREQUENCY
 from impact_damper.model.settling import Settling
 from impact_damper.motions import ensemble
 from impact_damper.motions.records import AT_REST, DRIFTING, NON_COLLIDING, SETTLED
@@ -261,15 +258,12 @@ def peaks_of_blocks(task, parameters, states, number, cycles) -> np.ndarray:
     states replace `states`. After an escape, displacements are infinite.
     """
     peaks = np.zeros((number, len(states)))
-    sides = np.array([side_of(*each) for each in zip(parameters, states, strict=True)], np.int64)
-    begins = 0.5 * np.pi / parameters[:, FREQUENCY]
-    ends = begins + cycles * 2 * np.pi / parameters[:, FREQUENCY]
 
     def work(part):
-        given = parameters[part], states[part], sides[part], begins[part], ends[part]
-        contacts = np.zeros(len(given[1]), np.int64)
+        contacts = np.zeros(len(states[part]), np.int64)
         for row in peaks:
-            advance(*given, task.effort.settling.tolerance, contacts, row[part])
+            given = parameters[part], states[part], cycles, task.effort.settling.tolerance
+            ensemble.follow_many(*given, contacts, row[part])
 
     run_chunks(work, len(states), task.effort.workers, None, np.zeros(1), size=FOLLOWED)
     return peaks.T

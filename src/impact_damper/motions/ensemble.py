@@ -9,6 +9,7 @@ from impact_damper.kernel.batch import (
     RESIDENT,
     SIDE,
     STATE,
+    advance,
     advance_some,
     enter,
     make_pool,
@@ -50,7 +51,7 @@ def settle(
     strobes = 0.5 * np.pi / parameters[:, FREQUENCY]
     begins = strobes if from_strobe else np.full(len(states), start)
     running = {"workers": workers, "progress": progress, "stop": stop}
-    return settle_with(settle_many, parameters, states, begins, settling or Settling(), **running)
+    return settle_with(SIDE_BY_SIDE, parameters, states, begins, settling or Settling(), **running)
 
 
 @kernel
@@ -84,6 +85,26 @@ def settle_many(parameters, states, start, tolerance, patience, limit, out, stop
             else:
                 with_tangent = seen[m].strobes > patience // 2
                 send(pool, m, strobe, strobe + 2.0 * math.pi / p[FREQUENCY], with_tangent)
+
+
+@kernel
+def follow_many(parameters, states, cycles, tolerance, contacts, largest):
+    """Run motions in place from the strobe for a number of forcing cycles.
+
+    `contacts` (m,) receives the number of contacts that each motion begins, and `largest` (m,) its
+    largest |Z1|, infinity after an escape.
+    """
+    sides = np.empty(len(states), np.int64)
+    begins, ends = np.empty((2, len(states)))
+    for i in range(len(states)):
+        p = parameters[i]
+        sides[i], begins[i] = side_of(p, states[i]), strobe_time(p)
+        ends[i] = begins[i] + cycles * 2.0 * math.pi / p[FREQUENCY]
+    advance(parameters, states, sides, begins, ends, tolerance, contacts, largest)
+
+
+# Kernels that settle motions and that follow settled motions, for `settle_with`.
+SIDE_BY_SIDE = settle_many, follow_many
 
 
 @kernel

@@ -13,7 +13,7 @@ from impact_damper.kernel.equation import has_escaped
 from impact_damper.kernel.single import assign, side_of, workspace
 from impact_damper.kernel.tangents import advance
 from impact_damper.model.packed import CLEARANCE, FREQUENCY
-from impact_damper.motions.records import ESCAPED, MOTION, NEVER, UNRESOLVED, measure
+from impact_damper.motions.records import ESCAPED, MOTION, NEVER, UNRESOLVED, measure_orbits
 from impact_damper.motions.strobe_map import one_period, speed_weight, strobe_time
 from impact_damper.motions.watch import NEAR, NEAREST, RING, move_onto_orbit, nearby_period
 
@@ -49,7 +49,7 @@ def run(p, y, ahead, strobe, tolerance, limit, stop=NEVER):
         if out["outcome"] != UNRESOLVED:
             break
     if out["period"] > 0:
-        measure(p[None], tolerance, 0, records, NEVER)
+        measure_orbits(p[None], tolerance, records, NEVER)
     return path[: out["periods_run"] + 2], out
 
 

@@ -116,8 +116,8 @@ def add_samples(c, order, moments, sample, count, sums):
 
 
 @inlined
-def measure_one(p, periods, tolerance, out):
-    """Measure one motion over `periods` forcing cycles, in two halves if `periods` is odd."""
+def measure_orbit(p, periods, tolerance, out):
+    """Measure an orbit over `periods` forcing cycles, in two halves if `periods` is odd."""
     halves = 1 + periods % 2
     state = out.state.copy()
     y = state.copy().reshape(1, 4)
@@ -125,7 +125,6 @@ def measure_one(p, periods, tolerance, out):
     phases, times = np.empty(2), np.empty(2)
     phases[1], times[1] = STROBE, strobe_time(p)
     largest, contacts, first, second = 0.0, 0, 0.0j, 0.0j
-    out.asymmetry = np.nan
     for half in range(halves):
         phases[0], times[0] = phases[1], times[1]
         cycles = periods * (half + 1.0) / halves
@@ -137,47 +136,65 @@ def measure_one(p, periods, tolerance, out):
         second += complex(sums[1, 0], sums[1, 1]) / halves
         if half == 0 and halves == 2:
             out.asymmetry = distance(-y[0], state, speed_weight(p, side_of(p, y[0])))
-    if has_escaped(p, y[0, 0], y[0, 1]):
-        measure_nothing(out)
-        out.outcome = ESCAPED
-        return
     out.maximum_displacement = largest
     out.contacts = contacts / periods
     out.harmonic_displacement, out.harmonic_relative = first, second
 
 
-@inlined
-def measure_nothing(out):
-    """Fill the measurements of a motion that diverges or escapes with infinity or NaN."""
-    nothing = complex(np.nan, np.nan)
-    out.maximum_displacement, out.contacts, out.asymmetry = np.inf, np.nan, np.nan
-    out.harmonic_displacement, out.harmonic_relative = nothing, nothing
-
-
 @kernel
-def measure(parameters, tolerance, watched, out, stop):
-    """Complete the records `out` by measurements of motions that begin in the records' states.
+def measure_orbits(parameters, tolerance, out, stop):
+    """Measure the motions with a `period`, and fill the records of other motions with NaN.
 
-    A motion with a `period` is integrated over the period, others over `watched` forcing cycles.
-    If the number of cycles is odd, the asymmetry is the distance between the mirrored first state
-    and the state after half the cycles; otherwise the asymmetry is NaN. A harmonic is c in
-    Re(c exp(i W T)). If another thread sets `stop[0]`, the remaining records are not completed.
+    An orbit is integrated over its period, from its state at the strobe. If the period is odd, the
+    asymmetry is the distance between the mirrored first state and the state half a period later;
+    otherwise it is NaN. A harmonic is the amplitude c of Re(c exp(i W T)). If another thread sets
+    `stop[0]`, the remaining records are not completed.
     """
+    nothing = complex(np.nan, np.nan)
     for i in range(len(out)):
         if stop[0]:
             break
-        if out[i].outcome == DIVERGED or out[i].outcome == ESCAPED:
-            measure_nothing(out[i])
-        else:
-            periods = np.int64(out[i].period) if out[i].period > 0 else watched
-            measure_one(parameters[i], periods, tolerance, out[i])
+        out[i].maximum_displacement, out[i].contacts, out[i].asymmetry = np.inf, np.nan, np.nan
+        out[i].harmonic_displacement, out[i].harmonic_relative = nothing, nothing
+        if out[i].period > 0:
+            measure_orbit(parameters[i], np.int64(out[i].period), tolerance, out[i])
+
+
+@kernel
+def follow_each(parameters, states, cycles, tolerance, contacts, largest):
+    """Do the same as `ensemble.follow_many`, but run the motions one after the other."""
+    work = workspace()
+    for i in range(len(states)):
+        p, y = parameters[i], states[i]
+        length = cycles * 2.0 * math.pi / p[FREQUENCY]
+        _, largest[i], contacts[i] = run_window(
+            p, y, side_of(p, y), length, abs(y[0]), tolerance, work
+        )
+
+
+def measure(parameters, settling, out, stop, follow=follow_each):
+    """Complete the records `out` by measurements that begin at their states at the strobe.
+
+    A motion without a period is run for `settling.watched` cycles by the kernel `follow`. Of such
+    a motion only the largest |Z1| and the mean number of contacts in a cycle are measured.
+    """
+    measure_orbits(parameters, settling.tolerance, out, stop)
+    watched = settling.watched
+    others = np.flatnonzero((out["period"] == 0) & ~np.isin(out["outcome"], (DIVERGED, ESCAPED)))
+    contacts, largest = np.zeros(len(others), np.int64), np.zeros(len(others))
+    states = out["state"][others]
+    follow(parameters[others], states, watched, settling.tolerance, contacts, largest)
+    gone = np.isinf(largest)
+    out["outcome"][others[gone]] = ESCAPED
+    out["maximum_displacement"][others] = largest
+    out["contacts"][others] = np.where(gone, np.nan, contacts / watched)
 
 
 def measured(p, y, periods, tolerance):
-    """Measure a motion over `periods` cycles from the state y; return a record without outcome."""
+    """Measure an orbit over `periods` cycles from the state y; return a record without outcome."""
     records = np.zeros(1, MOTION)
-    records["state"] = y
-    measure(p[None], tolerance, periods, records, NEVER)
+    records["state"], records["period"] = y, periods
+    measure_orbits(p[None], tolerance, records, NEVER)
     return records[0]
 
 

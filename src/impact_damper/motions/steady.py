@@ -15,7 +15,7 @@ from impact_damper.kernel.tangents import advance
 from impact_damper.model import bounds
 from impact_damper.model.arguments import read_forced, read_start, read_state
 from impact_damper.model.settling import check_settling
-from impact_damper.motions.records import MOTION, measure, tabulate
+from impact_damper.motions.records import MOTION, follow_each, measure, tabulate
 from impact_damper.motions.simulate import COMPONENTS, simulate
 from impact_damper.motions.strobe_map import STROBE, one_period, strobe_time
 from impact_damper.motions.undecided import name_undecided
@@ -71,7 +71,7 @@ def steady_motion(
     # Shift the start by whole forcing cycles into the cycle that ends at the strobe.
     strobe, period = STROBE / model.frequency, 2 * np.pi / model.frequency
     begin = min(start - np.ceil((start - strobe) / period - 1e-9) * period, strobe)
-    record = settle_with(settle_each, p[None], y[None], np.array([begin]), settling)[0]
+    record = settle_with(ONE_BY_ONE, p[None], y[None], np.array([begin]), settling)[0]
     data = {name: ((), value) for name, value in tabulate(record).items()}
     data |= {"state": (("component",), record["state"]), "state_phase": STROBE}
     parameters = model.describe(settling) | {"state": y.tolist(), "start": start}
@@ -115,12 +115,14 @@ def run_chunks(work, count, workers, progress, stop, size=CHUNK):
 
 
 def settle_with(
-    settle, parameters, states, begins, settling, *, workers=1, progress=None, stop=None
+    kernels, parameters, states, begins, settling, *, workers=1, progress=None, stop=None
 ):
     """Run motions from states (m, 4) at times `begins` (m,); return an array of `records.MOTION`.
 
-    `settle` is `settle_each` or `settle_many`. The other arguments are as in `ensemble.settle`.
+    `kernels` run motions one by one (ONE_BY_ONE) or side by side (`ensemble.SIDE_BY_SIDE`). The
+    other arguments are as in `ensemble.settle`.
     """
+    settle, follow = kernels
     bounds.check_count("workers", workers, most=4096)
     states = np.ascontiguousarray(states, float)
     records = np.zeros(len(states), MOTION)
@@ -134,7 +136,7 @@ def settle_with(
         for first in range(0, max(len(out), 1), CHUNK):
             some = slice(first, first + CHUNK)
             name_undecided(rows[some], out[some], settling.limit, settling.further, stop)
-            measure(rows[some], settling.tolerance, settling.watched, out[some], stop)
+        measure(rows, settling, out, stop, follow)
 
     # This call compiles the kernels in the main thread, where Ctrl-C can interrupt the compilation.
     work(slice(0, 0))
@@ -164,3 +166,7 @@ def settle_each(parameters, states, start, tolerance, patience, limit, out, stop
             tangents = tangent if seen[0].strobes > patience // 2 else tangent[:0]
             side, contacts, _ = one_period(p, y, tangents, side, tolerance, work)
         assign(out[i].state, y)
+
+
+# Kernels that settle motions and that follow settled motions, for `settle_with`.
+ONE_BY_ONE = settle_each, follow_each
