@@ -71,6 +71,11 @@ def extremum(c, order, length, start):
     |polynomial| exceeds the larger of its two values at 0 and `length` by at most length^2/8 times
     the largest |second derivative|. Turning points are sought only if this bound exceeds `start`.
     """
+    farthest = 0.0
+    for k in range(order, 0, -1):
+        farthest = (farthest + abs(c[k])) * length
+    if farthest + abs(c[0]) <= start:
+        return start
     low, fall = polynomial(c, order, 0.0)
     high, _ = polynomial(c, order, length)
     excess, power = 0.0, length
