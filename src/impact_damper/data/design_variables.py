@@ -36,7 +36,7 @@ promised_share | | | | share of the starts for which the displacement is promise
 promise_starts | | | | number of new starts at each frequency and set of factors
 promise_rank | | | | rank, from the largest, of the start whose displacement is the bound
 gap_promised_displacement | | displacement | | promised displacement if the gap alone deviates
-confirmation | | | | whether the promise exceeds the least of the search by at most 10 per cent
+confirmation | | | | whether the promise exceeds the least of the search by at most 5 per cent
   : confirmed 0, rounds_ended 1, given 2
 peak_status | | | | whether the peak between frequencies is known to 1 %
   : known 0, not_known 1
