@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pandas as pd
 
+from chatterjee1995.sections.registry import STAGES
+
 # Column of a file of timings (chatterjee1995.workflow.job) -> name of the column here.
 COLUMNS = {"seconds": "seconds", "cpu_seconds": "cpu_seconds", "peak_memory_mb": "memory_mb"}
 
@@ -61,7 +63,8 @@ def table(folder):
 def with_costs(text, results):
     """Return the text of `config/README.md` with jobs and CPU seconds of the run in `results`.
 
-    A row of the table names stages, and gets the costs of their jobs. A row without jobs stays.
+    A row of the table names stages, and gets the costs of their jobs. A row without jobs stays. A
+    stage that no row names gets a row with the message of its jobs.
     """
     costs = jobs(results / "timings").groupby("stage")["cpu_seconds"].agg(["size", "sum"])
     machine = json.loads((results / "provenance.json").read_text())["machine"]
@@ -75,6 +78,10 @@ def with_costs(text, results):
     head, rest = text.split("| stage | result | jobs | CPU seconds |\n")
     rows, end = rest.split("\n\n", 1)
     rows = re.sub(r"^(\|.*)\| \d+ \| \d+ \|$", row, rows, flags=re.MULTILINE)
+    for stage in costs.index.intersection(STAGES).difference(re.findall(r"`(\w+)`", rows)):
+        message = STAGES[stage].message.replace(", {name}", "")
+        seconds = costs.loc[stage]
+        rows += f"\n| `{stage}` | {message} | {seconds['size']:.0f} | {seconds['sum']:.0f} |"
     where = f"{machine['cores']} cores of {machine['processor']}, {costs['sum'].sum():.0f} in all"
     head = re.sub(r"\(measured on [^)]*\)", f"(measured on {where})", head)
     return f"{head}| stage | result | jobs | CPU seconds |\n{rows}\n\n{end}"
