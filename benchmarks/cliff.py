@@ -1,9 +1,9 @@
 """Where the cliff of impact dampers lies, for linear and hardening machines near their resonance.
 
 `PYTHONPATH=src python -m benchmarks.cliff` prints the table of docs/explanation/trap.md. Lengths
-are in units of F/k. The quiet orbit has the ratio `a` of its displacement to the smallest displacement
-that its gap allows (the fold of the balance). The cliff is the largest gap at which at least half
-of the starts become quiet, as they also do at the next smaller gap.
+are in units of F/k. The ratio `a` of a quiet orbit is its displacement over the smallest one that
+its gap allows (the fold of the balance). The cliff is the largest gap at which at least half of the
+starts become quiet, as they also do at the next smaller gap.
 """
 
 import numpy as np
