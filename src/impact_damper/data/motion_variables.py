@@ -44,8 +44,8 @@ period | frequency motion | | n | period of the motion in cycles
 contacts | frequency motion | | | contacts begun per cycle
 maximum_displacement | frequency motion | displacement | max |Z1| | largest displacement
 asymmetry | frequency motion | mixed | | distance from the mirror image half a period later
-phase_relative | frequency motion | angle | | phase of Z1 minus phase of Z2, first harmonics
-phase_loose | frequency motion | angle | | phase of Z1 minus phase of Z1 - Z2, first harmonics
+phase_relative | frequency motion | angle | | phase of Z1 minus phase of Z2, if on an orbit
+phase_loose | frequency motion | angle | | phase of Z1 minus phase of Z1 - Z2, if on an orbit
 multiplier_real | frequency motion | | | dominant Floquet multiplier, real part
 multiplier_imaginary | frequency motion | | | dominant Floquet multiplier, imaginary part
 residual | frequency motion | mixed | | distance between the state and the state a period later
