@@ -33,16 +33,21 @@ def shocks(task, decision, progress=None) -> xr.Dataset:
     promised = float(decision["promised_displacement"]) / task.millimetres(1.0)
     motions = run(task, [cell], task.effort.starts, ("shocks",), progress)
     p = motions.parameters[0]
-    states = np.tile(motions.states[0, np.argmin(motions.peaks[0])], (2 * SHOCKS, 1))
+    state = motions.states[0, np.argmin(motions.peaks[0])]
     bare = task.bare_at([frequency])[0] / task.millimetres(1.0)
     most = WIDEST * p[FREQUENCY] * bare if np.isfinite(bare) else WIDEST * p[FREQUENCY] * promised
     changes = most * np.arange(1, SHOCKS + 1) / SHOCKS
     changes = np.concatenate([-changes[::-1], changes])
-    states[:, 1::2] += changes[:, None]
-    returned = convergence_times(task, p, states, promised)
+    returned = times_after(task, p, state, changes, promised)
     drawn = draw_starts(task, [cell], task.effort.starts, ("shocks", 1))[0]
     starts = convergence_times(task, p, drawn, promised)
     critical = np.abs(changes)[np.isinf(returned)].min(initial=np.inf)
+    # The first impulse after which a motion does not return, of one sign or both, is refined once.
+    first = changes[np.isinf(returned) & (np.abs(changes) <= critical)]
+    steps = most / SHOCKS * np.arange(SHOCKS) / SHOCKS
+    fine = (first[:, None] - np.sign(first)[:, None] * steps).ravel()
+    away = np.isinf(times_after(task, p, state, fine, promised))
+    critical = np.abs(fine)[away].min(initial=critical)
     values = {
         "shock_return": returned,
         "critical_shock": task.scales.to_si(critical, "impulse"),
@@ -50,6 +55,13 @@ def shocks(task, decision, progress=None) -> xr.Dataset:
     }
     impulses = task.scales.to_si(changes, "impulse")
     return labelled(values, shock_impulse=impulses, return_limit=np.array(LIMITS))
+
+
+def times_after(task, p, state, changes, promised):
+    """Return the convergence times after changes of the machine's velocity in a state."""
+    states = np.tile(state, (len(changes), 1))
+    states[:, 1::2] += np.asarray(changes)[:, None]
+    return convergence_times(task, p, states, promised)
 
 
 def convergence_times(task, p, states, promised) -> np.ndarray:
