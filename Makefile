@@ -142,7 +142,7 @@ release:
 	cd dist/impact_damper-*/ && rm -r src && $(abspath $(RELEASE))/bin/python -m pytest \
 		--numprocesses auto --dist loadfile tests/library tests/literature $(PYTEST)
 
-# CITATION.cff and codemeta.json, from pyproject.toml.
+# CITATION.cff, codemeta.json and workflow/envs/impact-damper.yaml, from pyproject.toml.
 citation: $(READY)
 	$(BIN)/python workflow/citation.py
 

@@ -1,7 +1,8 @@
-"""Write CITATION.cff and codemeta.json from pyproject.toml: `make citation`.
+"""Write files for citing and the environment of jobs from pyproject.toml: `make citation`.
 
 The table [tool.citation] of pyproject.toml holds what [project] has no key for, such as a DOI and
-a date of release, once these exist. Addresses stand in [project.urls].
+a date of release, once these exist. Addresses stand in [project.urls]. Snakemake makes the
+environment of the jobs from workflow/envs/impact-damper.yaml, if it is told to use conda.
 """
 
 import json
@@ -12,6 +13,7 @@ from pathlib import Path
 import yaml
 
 ROOT = Path(__file__).parents[1]
+MADE = "# Made from pyproject.toml by `make citation`.\n"
 # Key in [project.urls] -> keys in CITATION.cff and in codemeta.json.
 ADDRESSES = {
     "Repository": ("repository-code", "codeRepository"),
@@ -82,22 +84,38 @@ def article(reference):
     }
 
 
+def environment(project):
+    """Return the text of the environment of the jobs. Snakemake itself is no part of it."""
+    packages = [*project["dependencies"], *project["optional-dependencies"]["workflow"]]
+    lines = sorted(each.lower().replace(">=", " >=") for each in packages)
+    lines = [each for each in lines if not each.startswith("snakemake ")]
+    lines.insert(0, f"python {project['requires-python']}")
+    return (
+        f"{MADE}# Packages of the jobs, with the lower bounds of pyproject.toml. "
+        "Snakemake is not among them.\n"
+        "# Used only by `PYTHONPATH=$PWD/src snakemake --sdm conda`.\n"
+        "channels: [conda-forge]\ndependencies:\n" + "".join(f"  - {each}\n" for each in lines)
+    )
+
+
 def files(pyproject):
     """Return a dict: name of a file -> text of the file, from the text of a pyproject.toml."""
     table = tomllib.loads(pyproject)
     project, cited = table["project"], table["tool"]["citation"]
-    head = "# Made from pyproject.toml by `make citation`.\n"
     plain = {"sort_keys": False, "allow_unicode": True, "width": 100}
     return {
-        "CITATION.cff": head + yaml.safe_dump(citation(project, cited), **plain),
+        "CITATION.cff": MADE + yaml.safe_dump(citation(project, cited), **plain),
         "codemeta.json": json.dumps(codemeta(project, cited), indent=2) + "\n",
+        "workflow/envs/impact-damper.yaml": environment(project),
     }
 
 
 def main(folder):
     """Write the files into a folder."""
     for name, text in files((ROOT / "pyproject.toml").read_text()).items():
-        (Path(folder) / name).write_text(text)
+        path = Path(folder) / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
 
 
 if __name__ == "__main__":

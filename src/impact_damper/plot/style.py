@@ -7,8 +7,8 @@ import re
 import string
 
 import matplotlib.style
-from cycler import cycler
 from matplotlib.figure import Figure
+from matplotlib.rcsetup import cycler
 
 from impact_damper.data.whole_files import whole
 from impact_damper.model.parameters import SYMBOLS
