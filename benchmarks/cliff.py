@@ -26,6 +26,7 @@ OFFSETS = -0.3, 0.0, 0.3, 0.8
 # Clearances over the clearance of the fold at the worst frequency.
 PARTS = np.geomspace(0.4, 1.15, 24)
 STARTS, STIFFNESS = 24, 100.0
+BUILT = 0.8  # of the clearance by the rule
 # A start is quiet if its displacement is below QUIET times the displacement of the balance.
 QUIET = 1.4
 
@@ -84,49 +85,65 @@ def least_ratio(restitution):
     return max(1.0, 0.7 + 0.11 / s)
 
 
+def sizes_at(clearances, oscillator, damping, mass, restitution, frequency):
+    """Return the largest |Z1| of STARTS motions at each clearance, shape (clearances, STARTS)."""
+    dampers = [Damper(mass, each, restitution, STIFFNESS) for each in clearances]
+    rows = [np.tile(pack(oscillator, each, frequency), (STARTS, 1)) for each in dampers]
+    starts = [random_states(STARTS, 0.75 / damping, each, 1) for each in dampers]
+    run = np.concatenate(rows), np.concatenate(starts), Settling(limit=3000, further=0)
+    return settle(*run, workers=2)["maximum_displacement"].reshape(len(dampers), STARTS)
+
+
 def cliffs(damping, mass, restitution, hardening):
-    """Return rows: frequency, clearance of the cliff over the fold's, ratio a at the cliff."""
+    """Return a dict for each frequency. Clearances are over the fold's at the worst frequency.
+
+    optimum: clearance of the smallest motion that a start reaches; cliff, ratio: clearance and
+    ratio a at the cliff; rule: clearance by `least_ratio`; built: share of quiet starts at BUILT
+    times this clearance.
+    """
     cubic = hardening / (0.75 * (0.5 / damping) ** 2)
     full, middle = worst(damping, mass, restitution, cubic)
     oscillator, (s, q) = Oscillator(2 * damping, 1.0, cubic=cubic), constants(restitution)
-    rows = []
+    found = []
     for frequency in middle + mass * np.array(OFFSETS):
-        dampers = [Damper(mass, part * full, restitution, STIFFNESS) for part in PARTS]
-        packed = [np.tile(pack(oscillator, each, frequency), (STARTS, 1)) for each in dampers]
-        starts = [random_states(STARTS, 0.75 / damping, each, 1) for each in dampers]
-        run = np.concatenate(packed), np.concatenate(starts), Settling(limit=3000, further=0)
-        sizes = settle(*run, workers=2)["maximum_displacement"].reshape(len(PARTS), STARTS)
         others = damping, mass, restitution, cubic, frequency
-        ratios = np.array([ratio(part * full, *others) for part in PARTS])
-        bound = QUIET * ratios * s * PARTS * full / np.sqrt(q)
-        most = (sizes < bound[:, None]).mean(axis=1) >= 0.5
-        found = np.flatnonzero(most[1:] & most[:-1])
-        k = int(found[-1]) + 1 if len(found) else 0
+        rule = clearance_at(least_ratio(restitution), *others)
+        clearances = np.append(PARTS * full, BUILT * rule)
+        sizes = sizes_at(clearances, oscillator, damping, mass, restitution, frequency)
+        ratios = np.array([ratio(each, *others) for each in clearances])
+        bounds = QUIET * ratios * s * clearances / np.sqrt(q)
+        shares = (sizes < bounds[:, None]).mean(axis=1)
+        most = shares[:-1] >= 0.5
+        kept = np.flatnonzero(most[1:] & most[:-1]) + 1
+        k = int(kept[-1]) if len(kept) else 0
         if 0 < k < len(PARTS) - 1:
-            rows.append({
+            optimum = PARTS[np.argmin(sizes[:-1].min(axis=1))]
+            found.append({
                 "e": restitution, "hardening": hardening, "damping": damping, "mass": mass,
-                "frequency": frequency, "clearance": PARTS[k], "ratio": ratios[k], "full": full,
+                "frequency": frequency, "optimum": optimum, "cliff": PARTS[k],
+                "ratio": ratios[k], "rule": rule / full, "built": shares[-1],
             })  # fmt: skip
-    return rows
+    return found
+
+
+def spread(values):
+    """Return the median and the range of numbers as a text."""
+    return f"{np.median(values):.2f} ({np.min(values):.2f} to {np.max(values):.2f})"
 
 
 def table():
-    """Return all cliffs, and for each restitution how well `least_ratio` predicts their gaps."""
+    """Return all cliffs, and for each restitution where they lie."""
     given = [(z, m, e, c) for e in RESTITUTIONS for c in HARDENING for z, m in MACHINES]
     found = pd.DataFrame([row for each in given for row in cliffs(*each)])
     lines = []
     for restitution, part in found.groupby("e"):
-        a = least_ratio(restitution)
-        predicted = [
-            clearance_at(a, z, m, restitution, c / (0.75 * (0.5 / z) ** 2), w)
-            for z, m, c, w in part[["damping", "mass", "hardening", "frequency"]].to_numpy()
-        ]
-        error = np.array(predicted) / (part["clearance"] * part["full"])
-        line = {"e": restitution, "cases": len(part), "a by the rule": a}
-        line |= {"a, median": part["ratio"].median()}
-        line |= {"a, least": part["ratio"].min(), "a, greatest": part["ratio"].max()}
-        for hardening, some in error.groupby(part["hardening"]):
-            line[f"gap, {hardening:g} cubic"] = f"{some.min():.2f} to {some.max():.2f}"
+        line = {"e": restitution, "cases": len(part), "a by the rule": least_ratio(restitution)}
+        line |= {"a at the cliff": spread(part["ratio"])}
+        for hardening, some in part.groupby("hardening"):
+            line[f"cliff/optimum, {hardening:g} cubic"] = spread(some["cliff"] / some["optimum"])
+            line[f"rule/cliff, {hardening:g} cubic"] = spread(some["rule"] / some["cliff"])
+        line["quiet at the built gap"] = spread(part["built"])
+        line["more than half quiet"] = f"{(part['built'] > 0.5).sum()} of {len(part)}"
         lines.append(line)
     return found, pd.DataFrame(lines)
 

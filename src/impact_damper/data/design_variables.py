@@ -45,19 +45,23 @@ record_status | | | | whether motions that do not settle exceeded their extrapol
 largest_bare_displacement | | displacement | | largest displacement without damper over the band
 largest_bare_frequency | | frequency | | frequency of the largest displacement without damper
 tuned_displacement | | displacement | | largest displacement with a tuned absorber of this mass
-detuned_displacement | | displacement | | the same with this absorber detuned by 10 per cent
+detuned_displacement | | displacement | | largest displacement if its stiffness is 10 % off
 own_absorber_displacement | | displacement | | largest displacement with the absorber given
 least_ratio | | | | least displacement with the damper divided by the one without it, over the band
 worst_ratio | | | | greatest displacement with the damper divided by the one without it
 worst_ratio_frequency | | frequency | | frequency of worst_ratio
 side | side | | | lower or upper end
-keeping_gap | side | displacement | | ends of the gaps around design_gap at which the largest
-  displacement exceeds the promised one by at most 10 %
-keeping_end | side | | | what ends these gaps
-  : jump 0, growth 1, search_ends 2
+lost_gap | side | displacement | | nearest gap outside the tolerance at which the search found a
+  displacement more than 10 % above the promised one
+lost_displacement | side | displacement | | displacement that the search found at this gap
+lost_kind | side | | | whether the displacement jumps there (the cliff)
+  : jump 0, growth 1, none 2
+range_gap | gap_range side | displacement | | ends of a range of gaps that the search found nearly
+  as good as the best gap
+range_displacement | gap_range | displacement | | least displacement within the tolerance there
 best_orbit_gap | | displacement | | gap of the smallest stable quiet orbit at branch_frequency
 best_orbit_displacement | | displacement | | largest displacement of this orbit
-best_orbit_beyond | | | | whether its gap lies beyond keeping_gap
+best_orbit_beyond | | | | whether its gap lies beyond the cliff, if lost_gap is one
   : no 0, yes 1, no_orbit 2
 # promise
 varied | varied | | | quantity that deviates from its nominal value

@@ -54,8 +54,8 @@ def other_masses(task, decision, progress=None) -> xr.Dataset:
         return labelled({})
     other = replace(task, mass=mass, contact=task.contact_stiffness, gap=None)
     gap = search(other, progress, rounds=1).choose().gap
-    given = {"count": starts_needed(task.share), "progress": progress}
-    promise = Promise(other, 1e-3 * gap, factor_sets(other, gap), ("masses", 1), **given).refined()
+    given = factor_sets(other, gap), ("masses", 1)
+    promise = Promise(other, 1e-3 * gap, *given, progress=progress).refined()
     this = float(decision["design_gap"]), float(decision["promised_displacement"])
     rows = [
         (task.mass, *this, _force(task, this[0], float(decision["promised_frequency"]))),

@@ -1,5 +1,6 @@
 """The confirmation of a gap with new starts, and the decision whether to build the damper."""
 
+from contextlib import suppress
 from typing import NamedTuple
 
 import numpy as np
@@ -10,8 +11,8 @@ from impact_damper.data.design_variables import KEEPS, WORTH
 from impact_damper.data.shares import bounding_rank, starts_needed
 from impact_damper.design.absorbers import absorber_responses
 from impact_damper.design.promise import Promise, factor_sets
-from impact_damper.design.search import Curve, score, search, search_around
-from impact_damper.design.task import NOMINAL, SIDES, VARIED, Task, labelled
+from impact_damper.design.search import score, search, search_around
+from impact_damper.design.task import NOMINAL, NUMERICAL, SIDES, VARIED, Task, labelled
 
 # ROUNDS: largest number of gaps that are tried. The search is confirmed if a gap is chosen twice,
 # or if the least promise is at most CONFIRMED times the displacement at the gap chosen last.
@@ -108,7 +109,10 @@ def conclude(task, found, curve, status) -> xr.Dataset:
     ratio = np.where(np.isfinite(bare), table[0] / bare, 0.0)  # 0 where bare is infinite
     k = int(np.nanargmax(ratio))
     limit = np.nan if task.displacement_limit is None else 1e3 * task.displacement_limit
-    ends, beyond = curve.keeping(found.gap, KEEPS * promise.size)
+    lost, lost_sizes = curve.lost(found.gap, KEEPS * promise.size)
+    kinds = np.where(lost_sizes > 1.5 * KEEPS * promise.size, "jump", "growth")
+    kinds[np.isnan(lost)] = "none"
+    ranges = curve.ranges()
     built = promise.size <= (1 - WORTH) * most
     limit_status = "none" if np.isnan(limit) else "met" if promise.size <= limit else "missed"
     nominal = [place for place, cell in enumerate(promise.cells) if cell[0] == 0]
@@ -138,25 +142,25 @@ def conclude(task, found, curve, status) -> xr.Dataset:
         "gap_promised_displacement": found.by_gap,
         "confirmation": flag("confirmation", status),
         "peak_status": flag("peak_status", "known" if promise.peak_known else "not_known"),
-        "record_status": flag(
-            "record_status",
-            "still_grows" if promise.grows else "known",
-        ),
+        "record_status": flag("record_status", "still_grows" if promise.grows else "known"),
         "largest_bare_displacement": most,
         "largest_bare_frequency": task.worst_frequency,
         "least_ratio": float(np.nanmin(ratio)),
         "worst_ratio": float(ratio[k]),
         "worst_ratio_frequency": float(frequencies[k]),
         "branch_frequency": float(frequencies[np.nanargmax(table[0])]),
-        "keeping_gap": ends,
-        "keeping_end": [flag("keeping_end", _end(each, promise.size)) for each in beyond],
+        "lost_gap": lost,
+        "lost_displacement": lost_sizes,
+        "lost_kind": [flag("lost_kind", str(each)) for each in kinds],
+        "range_gap": [(each.low, each.high) for each in ranges],
+        "range_displacement": [each.size for each in ranges],
         "promise_factor": promise.sets,
         "promise_displacement": table,
         "promise_bare_displacement": bare,
         "unsettled_share": unsettled,
         "settling_late": waits,
         "searched_displacement": curve.sizes,
-        "searched_tolerated": _tolerated(task, curve),
+        "searched_tolerated": curve.within(*task.gap_ends(curve.gaps)),
     }
     return labelled(
         values,
@@ -169,33 +173,18 @@ def conclude(task, found, curve, status) -> xr.Dataset:
 
 
 def rivals(task) -> xr.Dataset:
-    """Return largest displacements with three absorbers: tuned, detuned, and given in the task."""
-    band = task.absorber_band
-    found = absorber_responses(
-        task.machine, task.mass, task.grid, [1.0], band=band, own=task.absorber
-    )
-    sizes = found["competitor_displacement"].sel(force_share=1.0).max("frequency", skipna=False)
-    worst = sizes.sel(competitor="tuned")
-    values = {
-        "tuned_displacement": worst.sel(detuning=0.0),
-        "detuned_displacement": worst.max(skipna=False),
-        "own_absorber_displacement": np.nan,
-    }
-    if task.absorber is not None:
-        values["own_absorber_displacement"] = sizes.sel(competitor="own", detuning=0.0)
-    return labelled({name: float(value) for name, value in values.items()})
+    """Return largest displacements with three absorbers: tuned, detuned, and given in the task.
 
-
-def _end(beyond, size):
-    """Return a name of the flag `keeping_end`: what ends the range of gaps that keep the promise.
-
-    `beyond` is the displacement (mm) at the first gap beyond the range, NaN if no gap was searched.
+    They are NaN if the method fails. Then the addition `competitors` fails too, and is flagged.
     """
-    if np.isnan(beyond):
-        return "search_ends"
-    return "jump" if beyond > 1.5 * KEEPS * size else "growth"
-
-
-def _tolerated(task, curve: Curve):
-    """Return for each searched gap the largest displacement (mm) at gaps within its tolerance."""
-    return curve.within(*task.gap_ends(curve.gaps))
+    names = ("tuned_displacement", "detuned_displacement", "own_absorber_displacement")
+    values = dict.fromkeys(names, np.nan)
+    given = task.machine, task.mass, task.grid, [1.0]
+    with suppress(*NUMERICAL):
+        found = absorber_responses(*given, band=task.absorber_band, own=task.absorber)
+        sizes = found["competitor_displacement"].sel(force_share=1.0).max("frequency", skipna=False)
+        worst = sizes.sel(competitor="tuned")
+        values[names[0]], values[names[1]] = worst.sel(detuning=0.0), worst.max(skipna=False)
+        if task.absorber is not None:
+            values[names[-1]] = sizes.sel(competitor="own", detuning=0.0)
+    return labelled({name: float(value) for name, value in values.items()})

@@ -4,20 +4,16 @@ import hashlib
 import json
 from pathlib import Path
 
-import numpy as np
 import xarray as xr
 
 from impact_damper.data.datasets import SOURCE, flag, load, save
 from impact_damper.data.whole_files import BrokenFileError
 from impact_damper.design.additions import ADDITIONS
 from impact_damper.design.confirm import evaluate_gap, find_gap
-from impact_damper.design.task import TOLERANCES, Effort, Task, labelled
+from impact_damper.design.task import NUMERICAL, TOLERANCES, Effort, Task, labelled
 from impact_damper.model.arguments import read_system
 from impact_damper.model.bounds import names_arguments, shown
 from impact_damper.model.machine import Machine, describe_si
-
-# Errors with which an addition to the decision may fail without ending the design.
-NUMERICAL = (ArithmeticError, ValueError, IndexError, np.linalg.LinAlgError)
 
 
 @names_arguments

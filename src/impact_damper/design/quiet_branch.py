@@ -3,7 +3,7 @@
 import numpy as np
 import xarray as xr
 
-from impact_damper.data.datasets import flag
+from impact_damper.data.datasets import decode, flag
 from impact_damper.design.cells import Cell, run
 from impact_damper.design.task import labelled
 from impact_damper.model.families import family_of
@@ -21,7 +21,8 @@ def follow_quiet_orbit(task, choice, progress=None) -> xr.Dataset:
     """Return a dataset of the quiet orbit over the gap, at the frequency `branch_frequency`."""
     gap, frequency = float(choice["design_gap"]), float(choice["branch_frequency"])
     orbit = quiet_orbit(task, gap, frequency)
-    return over_gap(task, gap, frequency, orbit, choice["keeping_gap"].values)
+    cliff = float(choice["lost_gap"][1]) if decode(choice["lost_kind"])[1] == "jump" else np.inf
+    return over_gap(task, gap, frequency, orbit, cliff)
 
 
 def quiet_orbit(task, gap, frequency) -> Orbit | None:
@@ -36,8 +37,8 @@ def quiet_orbit(task, gap, frequency) -> Orbit | None:
     return orbit if orbit.converged else None
 
 
-def over_gap(task, gap, frequency, orbit, keeping) -> xr.Dataset:
-    """Follow a quiet orbit over the gap. Return a dataset, with the smallest stable orbit."""
+def over_gap(task, gap, frequency, orbit, cliff) -> xr.Dataset:
+    """Follow a quiet orbit over the gap (mm). Return a dataset, with the smallest stable orbit."""
     gaps = sizes = moduli = np.empty(0)
     if orbit is not None:
         oscillator, damper, turning = task.system(1e-3 * gap, frequency)
@@ -51,7 +52,7 @@ def over_gap(task, gap, frequency, orbit, keeping) -> xr.Dataset:
     if (moduli < 1).any():
         k = int(np.argmin(np.where(moduli < 1, sizes, np.inf)))
         best, least = gaps[k], sizes[k]
-        beyond = "yes" if best > keeping[1] else "no"
+        beyond = "yes" if best >= cliff else "no"
     values = {
         "gap_of_orbit": gaps,
         "displacement_by_gap": sizes,

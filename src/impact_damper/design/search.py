@@ -111,20 +111,18 @@ class Curve:
         good = [each for each in ranges if each.size <= ALIKE * best]
         return max(good, key=lambda each: each.high / each.low)
 
-    def keeping(self, gap, size) -> tuple:
-        """Return two lists: both ends of a range of gaps, displacement just beyond each end.
+    def lost(self, gap, size) -> np.ndarray:
+        """Return two rows, below and above `gap`: nearest gap that is lost, displacement there.
 
-        The range is the tolerance of `gap` and all adjoining gaps with displacements up to `size`.
-        The displacement beyond an end is NaN if the curve has no gap there.
+        A gap is lost if it lies outside the tolerance of `gap` and has a displacement above `size`.
+        Both values are NaN if no such gap was searched.
         """
-        ends, beyond = [], []
-        for end, step in zip(self.task.gap_ends(gap), (-1, 1), strict=True):
+        found = np.full((2, 2), np.nan)
+        for side, end, step in zip((0, 1), self.task.gap_ends(gap), (-1, 1), strict=True):
             outside = (self.sizes > size) & (step * (self.gaps / end - 1) > 1e-9)
-            loud = np.flatnonzero(outside)[:: int(step)]
-            last = loud[0] - step if len(loud) else (len(self.gaps) - 1 if step > 0 else 0)
-            ends.append(float(step * max(step * self.gaps[last], step * end)))
-            beyond.append(self.sizes[loud[0]] if len(loud) else np.nan)
-        return ends, beyond
+            for k in np.flatnonzero(outside)[::step][:1]:
+                found[:, side] = self.gaps[k], self.sizes[k]
+        return found
 
     def worst_inside(self, gap) -> np.ndarray:
         """Return `sets` with the factor of the worst gap within the tolerance of `gap`.

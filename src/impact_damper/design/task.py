@@ -37,6 +37,8 @@ VARIED = tuple("gap restitution contact_stiffness gravity friction stiffness dam
 NOMINAL = (1.0,) * len(VARIED)
 TOLERANCES = {"gap": 0.2}
 SIDES = ["lower", "upper"]
+# Errors with which an addition to the decision may fail without ending the design.
+NUMERICAL = (ArithmeticError, ValueError, IndexError, np.linalg.LinAlgError)
 # MOST_DEVIATION: largest relative deviation that is allowed. ABSOLUTE: value whose deviation may
 # have a unit -> physical quantity. The quantity of `force` depends on the machine's excitation.
 MOST_DEVIATION = 0.9

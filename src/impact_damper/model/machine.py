@@ -14,6 +14,7 @@ from impact_damper.model.units import Scales, check_si, convert, optional, physi
 EXCITATIONS = ("force", "base_displacement", "base_acceleration", "unbalance")
 GRAVITY = 9.81  # acceleration of gravity, m/s^2
 ANGLES = {"least": 0, "most": 1.5708}  # range of the inclination of a gap, radian
+VERTICAL = 1.5707  # least inclination of a vertical gap, radian
 FRICTIONS = {"least": 0, "most": 10}  # range of a coefficient of friction
 # Keys of a damper in a machine's file that are arguments of `mounting`, not of `MachineDamper`.
 MOUNT = ("inclination", "friction_coefficient", "normal_force")
@@ -81,7 +82,8 @@ class MachineDamper:
         return (
             f"mass {with_unit(self.mass, 'kg')}, gap {with_unit(1e3 * self.gap, 'mm')} (full "
             f"play), restitution {self.restitution:g}, contact stiffness "
-            f"{with_unit(self.contact_stiffness, 'N/m')}"
+            f"{with_unit(self.contact_stiffness, 'N/m')}, gravity "
+            f"{with_unit(self.gravity, 'm/s^2')}, friction {with_unit(self.friction, 'N')}"
         )
 
 
@@ -322,7 +324,8 @@ class Machine:
             Full play of the loose mass from wall to wall, m.
         clearances : sequence of 2 floats, str or pint.Quantity
             In place of `gap`, the distances (m) from the loose mass at rest to both walls. Motions
-            depend on the sum only, because no spring holds the loose mass between the walls.
+            depend on the sum only, because no spring holds the loose mass between the walls. States
+            count from mid-gap, so the loose mass at rest is at half the difference of the two.
         mount : dict, optional
             Arguments of `mounting`, such as {"inclination": "90 deg"}.
         contact
@@ -339,7 +342,7 @@ class Machine:
             )
         if gap is None:
             sides = zip(("clearances[0]", "clearances[1]"), clearances, strict=True)
-            gap = sum(check_si(name, value, "clearance", above=0) for name, value in sides)
+            gap = sum(check_si(name, value, "clearance", least=0) for name, value in sides)
         damper = MachineDamper(mass=mass, gap=gap, **mounting(mass, **(mount or {})), **contact)
         damper.check_for(self)
         return damper
@@ -375,10 +378,14 @@ def mounting(
     if gravity is not None:
         along = check_si("gravity", gravity, "acceleration", **GRAVITIES)
     if friction is None:
-        across = GRAVITY * math.cos(angle)
-        normal = mass * across
+        normal = mass * GRAVITY * math.cos(angle) if angle < VERTICAL else 0.0
         if normal_force is not None:
             normal = check_si("normal_force", normal_force, "force", least=0, most=1e9)
+        elif coefficient and not normal:
+            raise ValueError(
+                "normal_force: must be given with friction_coefficient if the gap is vertical, "
+                "because no weight presses the loose mass on its floor"
+            )
         friction = coefficient * normal
     return {"gravity": along, "friction": friction}
 

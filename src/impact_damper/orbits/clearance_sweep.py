@@ -64,13 +64,14 @@ def clearance_sweep(
     -------
     xarray.Dataset
         For each (clearance, motion): the variables of `frequency_response`. For each `clearance`:
-        max |Z1| of the quiet motion (period 1, symmetric, two contacts), max |Z1| of all motions to
-        which starts lead, and the amplitude of the smallest stable solution of (7). Scalars: the
-        clearance with the smallest quiet motion (the optimum) and the kind of this minimum; the
-        optimum by (7); the clearances by rules (18) and (19), NaN for (19) without a resonance
-        peak; rm W^2 d0/f at the optimum, with the amplitude f of the forcing, and this ratio by the
-        theory of straight flight. For each `edge`: the end of the range of clearances around the
-        optimum in which max |Z1| of the quiet motion is within 10 % of its minimum.
+        max |Z1| of the quiet motion (period 1, symmetric, two contacts; absent with gravity,
+        because no motion is symmetric then), max |Z1| of all motions to which starts lead, and the
+        amplitude of the smallest stable solution of (7). Scalars: the clearance with the smallest
+        quiet motion (the optimum) and the kind of this minimum; the optimum by (7); the clearances
+        by rules (18) and (19), NaN for (19) without a resonance peak; rm W^2 d0/f at the optimum,
+        with the amplitude f of the forcing, and this ratio by the theory of straight flight. For
+        each `edge`: the end of the range of clearances around the optimum in which max |Z1| of the
+        quiet motion is within 10 % of its minimum.
 
     Raises
     ------

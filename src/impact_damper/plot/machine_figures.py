@@ -86,8 +86,8 @@ def gap_panel(axes, data):
     tolerance = parameters_of(data)["tolerances"].get("gap", 0.0)
     axes.axvspan(gap * (1 - tolerance), gap * (1 + tolerance), **TOLERATED)
     axes.axvline(gap, **CHOSEN)
-    kinds = decode(data["keeping_end"]).values
-    for end, kind in zip(data["keeping_gap"].values, kinds, strict=True):
+    kinds = decode(data["lost_kind"]).values
+    for end, kind in zip(data["lost_gap"].values, kinds, strict=True):
         if kind == "jump":
             axes.axvline(end, **CLIFF)
     axes.axhline(float(data["largest_bare_displacement"]), **BARE)

@@ -45,8 +45,8 @@ def test_the_least_displacement_next_to_a_cliff_is_not_chosen():
     nominal, values = found.nominal()
     best = np.interp(choice.gap, nominal, values)
     assert best <= 1.06 * values.min()
-    ends, beyond = found.keeping(choice.gap, 1.1 * best)
-    assert 7.8 < ends[1] < 8 and beyond[1] == 15
+    gaps, sizes = found.lost(choice.gap, 1.1 * best)
+    assert 8 <= gaps[1] < 8.2 and sizes[1] == 15
 
 
 def test_the_value_of_a_nominal_gap_is_the_largest_within_the_tolerance():

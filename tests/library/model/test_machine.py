@@ -158,3 +158,6 @@ def test_a_mount_gives_gravity_along_the_gap_and_friction():
         assert (damper.gravity, damper.friction) == pytest.approx((gravity, friction))
         scaled = damper.scaled(HARD.scales)
         assert HARD.scales.to_si(scaled.friction, "acceleration") == pytest.approx(friction / 0.6)
+    with pytest.raises(ValueError, match="^normal_force: must be given with friction_coefficient"):
+        HARD.damper(**DAMPER, mount={"inclination": "90 deg", "friction_coefficient": 0.2})
+    assert HARD.damper(**{**DAMPER, "gap": None}, clearances=(0, "3 mm")).gap == 3e-3

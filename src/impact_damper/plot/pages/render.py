@@ -16,6 +16,7 @@ from impact_damper.data.datasets import decode, load, named, parameters_of
 from impact_damper.data.design_variables import KEEPS, WORTH
 from impact_damper.data.sweeps import runs_of_true
 from impact_damper.data.whole_files import BrokenFileError, whole
+from impact_damper.model.machine import GRAVITY
 from impact_damper.model.text import number, percent, with_unit
 from impact_damper.plot import style
 from impact_damper.plot.machine_figures import ENDLESS, FIGURES
@@ -121,9 +122,6 @@ def _one_line(text):
 
 # Decay time: time in which an unforced vibration falls to this fraction of the first displacement.
 DECAY = 0.1
-# If the last gap that keeps the promise is at most this fraction beyond the end of the tolerance,
-# the page names the end of the tolerance, not the last gap.
-NEAR = 0.01
 # Names on the page. ADDITIONS: additions to the decision. QUANTITIES: values that may deviate.
 ADDITIONS = {
     "response": "motions and forces at the gap",
@@ -216,11 +214,12 @@ def numbers_of(data) -> dict:
         "hits": _hits(data),
         "ballast": _hits(data) < HARDLY,
         "linear": not asked["machine"].get("cubic_stiffness"),
-        "condition": _condition(data, ends),
-        "keeping": (
-            min(ends[0], float(data["keeping_gap"][0])),
-            max(ends[1], float(data["keeping_gap"][1])),
+        "condition": _condition(data),
+        "lost": list(zip(data["lost_gap"].values, data["lost_displacement"].values, strict=True)),
+        "ranges": list(
+            zip(data["range_gap"].values, data["range_displacement"].values, strict=True)
         ),
+        "inclination": np.degrees(np.arcsin(np.clip(asked["gravity"] / GRAVITY, -1, 1))),
         "worse": _worse(data, nominal),
         "other": _other_mass(data, asked),
         "failed": [
@@ -284,18 +283,19 @@ def _shocks(data):
     )
 
 
-def _condition(data, tolerated):
-    """Return the smallest change of gap or excitation that breaks the promise, or None."""
+def _condition(data):
+    """Return the smallest change of gap or excitation that broke the promise, or None."""
     gap, promised = float(data["design_gap"]), float(data["promised_displacement"])
     found = []
-    kinds = decode(data["keeping_end"]).values
-    ends = zip(data["keeping_gap"].values, kinds, tolerated, (-1, 1), strict=True)
-    for end, kind, least, sign in ends:
-        if kind != "search_ends":
-            inside = sign * end <= sign * least * (1 + sign * NEAR)
-            end, kind = (least, "tolerance") if inside else (end, kind)
-            side = "above" if sign < 0 else "below"
-            found.append(SimpleNamespace(kind=kind, side=side, end=end, margin=abs(end / gap - 1)))
+    lost = (
+        data["lost_gap"].values,
+        data["lost_displacement"].values,
+        decode(data["lost_kind"]).values,
+    )
+    for side, end, moved, kind in zip(("above", "below"), *lost, strict=True):
+        if kind != "none":
+            facts = {"side": side, "end": end, "size": moved, "margin": abs(end / gap - 1)}
+            found.append(SimpleNamespace(kind=kind, **facts))
     if "force_map_displacement" in data:
         shares = data["force_share"].values
         sizes = data["force_map_displacement"].max("operating_frequency").values
