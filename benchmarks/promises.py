@@ -9,6 +9,7 @@ friction or a moving base are run by a C program (`tests/references/built.c`).
 
 import math
 import time
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -62,7 +63,7 @@ TOLERANCE = 1e-8  # of the other program
 # Numbers of gaps, frequencies and starts of the sweep. 59 starts are the fewest that bound 95 %.
 GAPS, FREQUENCIES, SWEPT = 40, 7, 59
 # A gap of the sweep counts as better than the design if its displacement is less by this share.
-BETTER = 0.1
+BETTER, CLOSE = 0.1, 0.02
 HOW = (
     f"New starts: {STARTS}, or {FEWER} of drawn machines and of dampers as they are built, in each "
     "of four cells (the gap and both ends of its tolerance at the "
@@ -71,8 +72,9 @@ HOW = (
     "`exceeded_share` is the largest share of starts that exceed the promise; 5 % are allowed. A "
     "promise is broken if as many exceed it "
     f"with a probability below 0.001. The sweep has {GAPS} gaps, {FREQUENCIES} frequencies and "
-    f"{SWEPT} starts; a gap that seems better by {BETTER:.0%} is computed as the design was."
+    f"{SWEPT} starts; gaps that seem better by {BETTER:.0%} are computed as the design was."
 )
+RULE = 9 * "|---" + "|\n"  # below the head of the table in the documentation
 # A promise is broken if, at 5 % for each start, so many starts exceed it with a lower probability.
 CHANCE = 1e-3
 
@@ -86,16 +88,13 @@ def drawn(number) -> tuple:
     machine = {"mass": mass, "linear_stiffness": stiffness, "damping_ratio": damping}
     static = 10 ** random.uniform(-4.5, -3)  # static deflection, m
     excitation = EXCITATIONS[random.integers(3)]
-    if excitation == "base_displacement":  # `Machine` allows at most 0.02 on a moving base
-        machine["damping_ratio"] = damping = min(damping, 0.019)
     size = {"force": stiffness * static, "base_displacement": static, "unbalance": mass * static}
     machine[excitation] = size[excitation]
     resonance = static / (2 * damping)
     # The spring's frequency changes by the share `shift` at the displacement without the damper.
     shift = random.choice([0.0, random.uniform(0.02, 0.2), -random.uniform(0.01, 0.04)])
-    if excitation != "base_displacement":
-        machine["cubic_stiffness"] = 8 / 3 * stiffness * shift / resonance**2
-    middle = frequency * (1 + max(0, shift if "cubic_stiffness" in machine else 0))
+    machine["cubic_stiffness"] = 8 / 3 * stiffness * shift / resonance**2
+    middle = frequency * (1 + max(0, shift))
     width = random.uniform(0.02, 0.2)
     ratio = random.uniform(0.02, 0.12)
     asked = {
@@ -156,7 +155,7 @@ def exceeded(task, design, count) -> list:
 
 
 def swept(task) -> tuple:
-    """Return the best of GAPS gaps (mm), and its displacement (mm), bounded with SWEPT starts.
+    """Return many gaps (mm), and their displacements (mm), from GAPS gaps with SWEPT starts.
 
     The displacement of a gap is the largest within the tolerances, interpolated between the gaps.
     """
@@ -170,10 +169,29 @@ def swept(task) -> tuple:
     values = np.interp(np.log(fine), np.log(gaps), np.minimum(sizes, 1e9))
     low, high = task.gap_ends(fine)
     pairs = zip(low, high, strict=True)
-    within = [values[(fine >= a) & (fine <= b)].max() for a, b in pairs]
+    within = np.array([values[(fine >= a) & (fine <= b)].max() for a, b in pairs])
     inside = (low >= gaps[0]) & (high <= gaps[-1])
-    k = int(np.argmin(np.where(inside, within, np.inf)))
-    return fine[k], within[k]
+    return fine[inside], within[inside]
+
+
+def best_swept(task, promised) -> tuple:
+    """Return the best gap of a sweep (mm), and its displacement (mm).
+
+    Each gap that seems better than BETTER is computed as the design was, the best one first, until
+    one of them is better or none is left. Gaps closer than CLOSE to a gap computed count as it.
+    """
+    gaps, sizes = swept(task)
+    sizes = sizes.copy()
+    for _ in range(GAPS):
+        k = int(np.argmin(sizes))
+        if sizes[k] >= (1 - BETTER) * promised:
+            break
+        found = confirmed(task, gaps[k])
+        if found < (1 - BETTER) * promised:
+            return gaps[k], found
+        sizes[np.abs(np.log(gaps / gaps[k])) < CLOSE] = found
+    k = int(np.argmin(sizes))
+    return gaps[k], sizes[k]
 
 
 def confirmed(task, gap) -> float:
@@ -190,9 +208,7 @@ def row(name, machine, asked, workers) -> dict:
     promised = float(design["promised_displacement"])
     count = STARTS if name in KNOWN else FEWER
     shares = exceeded(task, design, count)
-    gap, best = swept(task)
-    if best < (1 - BETTER) * promised:
-        best = confirmed(task, gap)
+    gap, best = best_swept(task, promised)
     chances = binom.sf(count * np.array([*shares, 0.0]) - 1, count, 0.05)
     found = {
         "machine": name,
@@ -216,3 +232,21 @@ def table(count, workers=1) -> pd.DataFrame:
     """Return a row for each machine in KNOWN and BUILT, and for `count` drawn machines."""
     made = KNOWN | BUILT | {f"random {k}": drawn(k) for k in range(count)}
     return pd.DataFrame([row(name, *each, workers) for name, each in made.items()])
+
+
+def with_table(text, found) -> str:
+    """Return the text of docs/explanation/promise.md with the rows of a table of this module."""
+    words = {"build": "build", "do_not_build": "do not build"}
+    rows = [
+        f"| {each.machine} | {each.bare_mm:.3g} | {words[each.decision]} | {each.gap_mm:.3g} | "
+        f"{each.promised_mm:.3g} | {100 * each.exceeded_share:.2g} | {each.swept_mm:.3g} at "
+        f"{each.swept_gap_mm:.3g} | {each.cpu_seconds:.0f} |"
+        for each in found.itertuples()
+    ]
+    head, _ = text.split(RULE)  # the table ends the page
+    return head + RULE + "\n".join(rows) + "\n"
+
+
+if __name__ == "__main__":
+    page, kept = Path("docs/explanation/promise.md"), Path("results/benchmarks/promises.csv")
+    page.write_text(with_table(page.read_text(), pd.read_csv(kept)))
