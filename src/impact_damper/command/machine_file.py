@@ -129,6 +129,8 @@ Tolerances = create_model(
     gap=deviation_of("the gap", "displacement"),
     restitution=deviation_of("the restitution"),
     contact_stiffness=deviation_of("the contact stiffness", "stiffness"),
+    gravity=deviation_of("gravity along the gap"),
+    friction=deviation_of("the friction of the loose mass"),
     stiffness=deviation_of("both stiffnesses of the spring", "stiffness"),
     damping=deviation_of("the damping of the machine", "damping"),
     force=deviation_of("the excitation", "force", "displacement", "acceleration", "unbalance"),
@@ -171,8 +173,7 @@ class MachineEntry(section.Section):
             if not lacking:
                 from impact_damper.design.task import Task
 
-                arguments = design_arguments(self.model_dump(exclude_none=True))
-                Task(machine=machine, **arguments)
+                Task(machine=machine, **design_arguments(self.model_dump(exclude_none=True)))
         except (TypeError, ValueError) as error:
             yield f"{section.dotted(path)}: {error}" if path else str(error)
 
@@ -219,11 +220,8 @@ class _Loader(section.LOADER):
     """YAML loader that reads 2e5 as a number; by YAML 1.1, 2e5 is text."""
 
 
-_Loader.add_implicit_resolver(
-    "tag:yaml.org,2002:float",
-    re.compile(f"(?:{section.SCIENTIFIC.pattern})$"),
-    list("-+.0123456789"),
-)
+FLOAT = re.compile(f"(?:{section.SCIENTIFIC.pattern})$")
+_Loader.add_implicit_resolver("tag:yaml.org,2002:float", FLOAT, list("-+.0123456789"))
 DEFAULTS = {"candidates": 8, "starts": 73, "share": 0.95, "tolerances": {"gap": 0.2}}
 POINTS = 9  # number of frequencies in the band
 

@@ -251,15 +251,12 @@ def one_of(name, known) -> str:
 
 def dotted(path) -> str:
     """Return a path of keys, joined by dots. Long or unprintable keys are shortened and quoted."""
-    return (
-        ".".join(
-            key
-            if isinstance(key, str) and key.isprintable() and len(key) <= 80
-            else reprlib.repr(key)
-            for key in path
-        )
-        or "configuration"
-    )
+
+    def shown(key):
+        whole = isinstance(key, str) and key.isprintable() and len(key) <= 80
+        return key if whole else reprlib.repr(key)
+
+    return ".".join(map(shown, path)) or "configuration"
 
 
 def problems_of(error) -> list:
