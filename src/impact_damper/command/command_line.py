@@ -41,6 +41,8 @@ def main(
 ):
     """Impact dampers for machines in SI units.
 
+    For harmonic excitation of one mode; not for self-excited, random or shock excitation.
+
     A YAML file describes machine, damper and band of frequencies. It must hold at least:
 
     \b
@@ -50,7 +52,7 @@ def main(
 
     Plain numbers are in kg, N/m, N, m and Hz.
 
-    The documentation, "Describe a machine in a file", lists all keys.
+    In the documentation: "Describe a machine in a file" (all keys), "What it is for".
     """
 
 

@@ -274,6 +274,7 @@ def test_the_help_holds_a_file_that_works(tmp_path):
     lines = [line.strip() for line in run("--help").splitlines()]
     keys = ("machine:", "damper:", "band:")
     (tmp_path / "machine.yaml").write_text("\n".join(x for x in lines if x.startswith(keys)))
+    assert any("harmonic excitation of one mode" in line for line in lines)
     assert read_machine_file(tmp_path / "machine.yaml").keys() > {"machine", "damper", "band"}
 
 
