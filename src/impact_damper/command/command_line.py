@@ -11,11 +11,16 @@ from typing import Annotated
 
 import typer
 
+from impact_damper.data.whole_files import check_writable
+
 app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False)
 MachineFile = Annotated[
     Path, typer.Argument(exists=True, dir_okay=False, help="YAML file of machine, damper and band.")
 ]
 Gap = Annotated[str, typer.Option(help='Full play of the loose mass, such as "3 mm".')]
+Kept = Annotated[
+    Path, typer.Option(dir_okay=False, callback=check_writable, help="NetCDF file of the result.")
+]
 Force = Annotated[
     bool, typer.Option("--force", help="Replace the files of another machine, or a foreign page.")
 ]
@@ -109,7 +114,7 @@ def simulate(
         str, typer.Option(help="Initial x, x', z, z'; z is relative to the loose mass.")
     ] = "0, 0, 0, 0",
     periods: Annotated[float, typer.Option(help="Length in forcing cycles.")] = 200,
-    output: Annotated[Path, typer.Option(help="NetCDF file of the motion.")] = None,
+    output: Kept = None,
     as_json: AsJson = False,
 ):
     """Integrate one motion, without the damper if no gap is given."""
@@ -135,7 +140,7 @@ def response(
     machine_file: MachineFile,
     gap: Gap = None,
     starts: Annotated[int, typer.Option(min=1, help="Random starts at each frequency.")] = 96,
-    output: Annotated[Path, typer.Option(help="NetCDF file of the response.")] = None,
+    output: Kept = None,
     workers: Workers = 2,
     as_json: AsJson = False,
 ):
@@ -149,45 +154,33 @@ def response(
     given, machine = read(machine_file)
     band = given["band"]
     ends = (si_value("band", band[end], "frequency") for end in ("first", "last"))
-    found = frequency_response(
-        machine,
-        damper(given, machine, gap),
-        np.linspace(*ends, band["points"]),
-        starts=starts,
-        workers=workers,
-        progress="response" if sys.stderr.isatty() and not as_json else None,
-    )
+    system = machine, damper(given, machine, gap), np.linspace(*ends, band["points"])
+    title = "Response" if sys.stderr.isatty() and not as_json else None
+    found = frequency_response(*system, starts=starts, workers=workers, progress=title)
     rows = []
+    words = ["Hz        largest displacement, mm (in brackets if not periodic): share of starts"]
     for i, hertz in enumerate(found["frequency"].values):
-        each, row = found.isel(frequency=i), {"frequency_hz": float(hertz)}
+        each, row, told = found.isel(frequency=i), {"frequency_hz": float(hertz)}, []
+        moved, shares = each["maximum_displacement"].values, each["motion_starts"].values / starts
         settled = is_settled(each)
-        for name, chosen in (("settled", settled), ("other", ~settled & (each["outcome"] >= 0))):
-            sizes = different(each["maximum_displacement"].values[chosen])
-            row[f"{name}_mm"] = [size for size, _ in sizes]
-            counts = each["motion_starts"].values[chosen]
-            row[f"{name}_share"] = [float(counts[same].sum()) / starts for _, same in sizes]
+        other = ~settled & (each["outcome"].values >= 0)
+        for name, chosen, form in (("settled", settled, "{:.4g}"), ("other", other, "({:.4g})")):
+            sizes = different(moved[chosen], shares[chosen])
+            row[f"{name}_mm"] = list(sizes)
+            row[f"{name}_share"] = list(sizes.values())
+            told += [f"{form.format(size)}: {100 * sizes[size]:.0f} %" for size in sizes]
         rows.append(row)
-    words = [
-        "Hz        largest displacement of each motion, mm (in brackets if not periodic), and the "
-        "share of starts that lead to it"
-    ]
-    for row in rows:
-        told = [
-            form.format(size, 100 * share)
-            for name, form in (("settled", "{:.4g}: {:.0f} %"), ("other", "({:.4g}): {:.0f} %"))
-            for size, share in zip(row[f"{name}_mm"], row[f"{name}_share"], strict=True)
-        ]
-        words.append(f"{row['frequency_hz']:<9.4g} {'  '.join(told)}")
+        words.append(f"{hertz:<9.4g} {'  '.join(told)}")
     tell(as_json, words + kept(found, output), {"response": rows})
 
 
-def different(sizes, alike=1e-4):
-    """Return pairs (size, indices of all `sizes` close to this size), by ascending size."""
-    found = []
-    for place in sorted(range(len(sizes)), key=lambda i: sizes[i]):
-        if not found or sizes[place] > found[-1][0] * (1 + alike):
-            found.append((float(sizes[place]), []))
-        found[-1][1].append(place)
+def different(sizes, shares, alike=1e-4):
+    """Return a dictionary {size: sum of shares} by ascending size; close sizes count as one."""
+    found, last = {}, -1.0
+    for size, share in sorted(zip(map(float, sizes), map(float, shares), strict=True)):
+        if size > last * (1 + alike):
+            last = size
+        found[last] = found.get(last, 0.0) + share
     return found
 
 
@@ -196,6 +189,7 @@ def migrate(
     machine_file: MachineFile,
     output: Annotated[Path, typer.Option(help="Folder for data and plot.")] = "migration",
     workers: Workers = 2,
+    force: Force = False,
     as_json: AsJson = False,
 ):
     """Find gaps with which a release of the damper leads to the small motion of the machine."""
@@ -204,34 +198,37 @@ def migrate(
     from impact_damper.command.machine_file import design_arguments
     from impact_damper.data.datasets import save
     from impact_damper.design.migration import migration
+    from impact_damper.model.machine import describe_si
     from impact_damper.plot.maps import migration_map
+    from impact_damper.plot.pages.render import check_folder
     from impact_damper.plot.style import save_figure
 
     given, machine = read(machine_file)
     values = design_arguments(given, workers)
     for name in ("tolerances", "absorber", "displacement_limit"):
         del values[name]
-    found = migration(machine, **values, progress=None if as_json else "Releases")
-    output.mkdir(parents=True, exist_ok=True)
+    check_folder(output, describe_si(machine), force)
+    title = "Releases" if sys.stderr.isatty() and not as_json else None
+    found = migration(machine, **values, progress=title)
     save(found, output / "migration.nc")
     save_figure(migration_map(found), output / "migration")
-    rows = [
-        {
-            "gap_mm": float(gap),
-            "sure_from_hz": float(lowest) if np.isfinite(lowest) else None,
-            "least_share": float(shares[np.isfinite(shares)].min()),
-        }
-        for gap, lowest, shares in zip(
-            found["released_gap"].values,
-            found["sure_frequency"].values,
-            found["migration_share"].values,
-            strict=True,
-        )
-    ]
-    words = ["gap, mm   releases are sure from, Hz   least share of releases that succeed"]
-    for row in rows:
-        sure = f"{row['sure_from_hz']:.4g}" if row["sure_from_hz"] else "nowhere"
-        words.append(f"{row['gap_mm']:<9.4g} {sure:<26} {100 * row['least_share']:.0f} %")
+    sure = found["released_frequency"] >= found["sure_frequency"]
+    times = found[["migration_time", "migration_bound"]].where(sure).max("released_frequency")
+    columns = {
+        "gap_mm": found["released_gap"],
+        "sure_from_hz": found["sure_frequency"],
+        "median_s": times["migration_time"],
+        "bound_s": times["migration_bound"],
+        "least_share": found["migration_share"].min("released_frequency"),
+    }
+    rows = []
+    head = "gap, mm   sure from, Hz   median time, s   {:g} % within, s   least share of successes"
+    words = [head.format(100 * values["share"])]
+    for numbers in zip(*columns.values(), strict=True):
+        row = [float(number) if np.isfinite(number) else None for number in numbers]
+        rows.append(dict(zip(columns, row, strict=True)))
+        sure, median, bound = (f"{each:.4g}" if each else "nowhere" for each in row[1:4])
+        words.append(f"{row[0]:<9.4g} {sure:<15} {median:<16} {bound:<15} {100 * row[4]:.0f} %")
     words.append(f"The data and the plot: {output}")
     tell(as_json, words, {"migration": rows, "data": str(output / "migration.nc")})
 
@@ -277,8 +274,7 @@ def answer(decide, made, machine_file, file, force, as_json):
     from impact_damper.plot.pages.render import check_folder
 
     check_folder(file.parent, describe_si(made), force)
-    shown = sys.stderr.isatty() and not as_json
-    found = decide(progress=shown, folder=file.parent / "steps")
+    found = decide(progress=sys.stderr.isatty() and not as_json, folder=file.parent / "steps")
     found.attrs["input_file"] = machine_file.name
     save(found, file)
     page, words = write_report(found, file, file.parent), conclusion(found)

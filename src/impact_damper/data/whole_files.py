@@ -39,6 +39,16 @@ def whole(path):
             part.unlink()
 
 
+def check_writable(path):
+    """Return a path or None. Raise OSError if no file can be written there."""
+    if path is not None:
+        probe = path.with_name(f"{path.name}.check")
+        with whole(probe) as part:
+            part.touch()
+        probe.unlink()
+    return path
+
+
 def _reason(folder, error):
     """Return in one line why a file could not be written, found by writing a trial file.
 

@@ -15,7 +15,7 @@ from markupsafe import Markup
 from impact_damper.data.datasets import decode, load, named, parameters_of
 from impact_damper.data.design_variables import KEEPS, WORTH
 from impact_damper.data.sweeps import runs_of_true
-from impact_damper.data.whole_files import BrokenFileError, whole
+from impact_damper.data.whole_files import BrokenFileError, check_writable, whole
 from impact_damper.model.machine import GRAVITY
 from impact_damper.model.text import number, percent, with_unit
 from impact_damper.plot import style
@@ -37,10 +37,7 @@ def check_folder(folder, machine, force) -> None:
 
     Without `force`, an `index.html` of another program or data of another machine are also errors.
     """
-    probe = folder / "index.html.check"
-    with whole(probe) as part:
-        part.touch()
-    probe.unlink()
+    check_writable(folder / "index.html")
     if force:
         return
     page = folder / "index.html"
@@ -48,7 +45,7 @@ def check_folder(folder, machine, force) -> None:
         raise FileExistsError(
             f"{page} is no page of impact-damper: choose another --output, or replace it by --force"
         )
-    for path in (folder / "design.nc", folder / "evaluation.nc"):
+    for path in (folder / f"{name}.nc" for name in ("design", "evaluation", "migration")):
         try:
             held = parameters_of(load(path)).get("machine")
         except (FileNotFoundError, BrokenFileError):
