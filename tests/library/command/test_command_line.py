@@ -9,8 +9,10 @@ from unittest.mock import Mock
 
 import numpy as np
 import pytest
+from helpers.design_tasks import needs_compiler
 from helpers.made_up_design import made_up_design
 from matplotlib.figure import Figure
+from references.built import by_program
 from typer.testing import CliRunner
 
 import impact_damper as idm
@@ -182,13 +184,21 @@ def test_all_commands_compute_with_the_stiffness_of_a_ball(machine_file):
     assert found == task.contact_stiffness == pytest.approx(expected)
 
 
-def test_all_commands_compute_with_gravity_and_friction(machine_file):
-    text = machine_file.read_text()
+@pytest.mark.thorough
+@needs_compiler
+def test_a_vertical_damper_with_friction_is_designed_from_a_file(machine_file, tmp_path):
+    """New starts keep its promise in a C program that shares no code with the library."""
     mount = "inclination: 90 deg, friction_coefficient: 0.2, normal_force: 3 N"
-    machine_file.write_text(text.replace("damper: {", f"damper: {{{mount}, "))
+    text = FILE.replace("5 %", "0.5 %").replace("0.6 kg", f"1.2 kg, {mount}")
+    machine_file.write_text(f"{text}candidates: 4\nfrequencies: 3\nstarts: 59\n")
+    told = json.loads(run("design", machine_file, "--output", tmp_path / "out", "--json"))
     given, machine = command_line.read(machine_file)
-    found = command_line.damper(given, machine, "3 mm")
-    assert (found.gravity, found.friction) == pytest.approx((9.81, 0.6))
+    damper = command_line.damper(given, machine, f"{told['design_gap_mm']} mm")
+    assert (damper.gravity, damper.friction) == pytest.approx((9.81, 0.6))
+    states = np.random.default_rng(1).uniform(-1, 1, (20, 4)) * [2e-3, 0.2, damper.gap / 2, 0.2]
+    runs = [1e3 * by_program(machine, damper, 20.5, each, 700, 600) for each in states]
+    assert sum(size > told["promised_displacement_mm"] for size in runs) <= 3
+    assert told["promised_displacement_mm"] < 0.5 * told["largest_bare_displacement_mm"]
 
 
 def test_a_contact_that_is_not_known_names_its_key(machine_file):

@@ -12,12 +12,9 @@ from impact_damper.design.task import NOMINAL
 from impact_damper.motions.start_states import random_starts
 
 PUMP = idm.Machine(mass=12, linear_stiffness=2e5, damping_ratio=0.01, force=40)
+VERTICAL = {"inclination": "90 deg", "friction_coefficient": 0.2, "normal_force": 2}
 BUILT = {
-    "vertical": (
-        PUMP,
-        {"inclination": "90 deg", "friction_coefficient": 0.2, "normal_force": 2},
-        4e-3,
-    ),
+    "vertical": (PUMP, VERTICAL, 4e-3),
     "inclined": (PUMP, {"inclination": "30 deg", "friction_coefficient": 0.05}, 4e-3),
     "on a base": (BOARD, {}, 3e-3),
 }

@@ -196,7 +196,7 @@ def test_what_is_less_sure_is_said_in_the_third_line():
         ),
         (
             {"lost_kind": ["none", "none"], "force_map_displacement": np.ones((5, 5))},
-            "no excitation up to four times the one given breaks this promise",
+            "no excitation run, up to four times the one given, broke this promise",
         ),
     ],
 )
