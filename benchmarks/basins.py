@@ -1,9 +1,11 @@
-"""States of the free oscillator at W = 1.85 that are labelled, and looked up, in a second.
+"""States at W = 1.85 that are labelled, and looked up, in a second, without damper and with it.
 
 Free means without damper, and a release is the switching off of the damper. To label a state is to
 find the motion to which it leads. A release set is a precomputed table of the states from which the
 free motion settles on the small motion.
 """
+
+from functools import partial
 
 import numpy as np
 import pandas as pd
@@ -11,9 +13,9 @@ import pandas as pd
 from benchmarks.timing import interleaved, spread
 from impact_damper.kernel.compiling import kernel
 from impact_damper.model.packed import pack
-from impact_damper.model.parameters import Oscillator
+from impact_damper.model.parameters import Damper, Oscillator
 from impact_damper.model.settling import Settling
-from impact_damper.motions.attractors import free_attractors, release_set
+from impact_damper.motions.attractors import free_attractors, label_damped, release_set
 from impact_damper.motions.ensemble import label_states
 from impact_damper.motions.legs import depth_of
 
@@ -21,6 +23,8 @@ from impact_damper.motions.legs import depth_of
 PLANE = np.array([3.2, 5.0])
 # Cells on each axis of the coarse grid of the release set, as in the configuration.
 CELLS = 64
+# Restitutions of the damper, and the frequency, of the states that are labelled with a damper.
+RESTITUTIONS, DAMPED = (1.0, 0.75), 1.95
 
 
 @kernel
@@ -33,7 +37,10 @@ def look_up(depth, half, states):
 
 
 def table(count, rounds):
-    """Return states labelled and looked up in a second, for about `count` states on a grid."""
+    """Return states labelled and looked up in a second, for about `count` states on a grid.
+
+    With the damper a tenth of the states is labelled, the loose mass at rest in mid-gap.
+    """
     p, settling = pack(Oscillator(0.215), None, 1.85), Settling()
     attractors = free_attractors(p, PLANE, settling)
     axes = [np.linspace(-half, half, round(count**0.5)) for half in PLANE]
@@ -51,9 +58,18 @@ def table(count, rounds):
         look_up(releases.depth, releases.half, mixed)
 
     look()
-    seconds = interleaved({"labelled": label, "looked up": look}, rounds)
+    few = np.hstack([mixed[: len(states) // 10], np.zeros((len(states) // 10, 2))])
+    calls, means = {"labelled": label, "looked up": look}, {"labelled": np.mean(periods)}
+    for restitution in RESTITUTIONS:
+        row = pack(Oscillator(0.215), Damper(0.25, 1.0, restitution), DAMPED)
+        given = row, few, np.pi / 2, settling
+        name = f"labelled, with damper, e = {restitution}"
+        calls[name] = partial(label_damped, *given)
+        means[name] = np.mean(label_damped(*given)[1])
+    seconds = interleaved(calls, rounds)
+    numbers = {name: len(few) if "damper" in name else len(states) for name in calls}
     return pd.DataFrame([
-        {"states": name, "number": len(states), "mean_periods": mean}
-        | spread("states_a_second", len(states) / seconds[name])
-        for name, mean in (("labelled", np.mean(periods)), ("looked up", np.nan))
+        {"states": name, "number": numbers[name], "mean_periods": means.get(name, np.nan)}
+        | spread("states_a_second", numbers[name] / seconds[name])
+        for name in calls
     ])  # fmt: skip
