@@ -1,4 +1,4 @@
-"""Errors and work (operations) of integrators and models on test motions, called scenes."""
+"""Errors and numbers of operations of integrators and models, on test motions called scenes."""
 
 from typing import NamedTuple
 
@@ -42,12 +42,12 @@ meets_accuracy | run | | | whether the run meets the accuracy required by the sc
 )
 
 LONGER = 4  # the reference run of a chaotic scene is LONGER times as long as the scene
-# Allowed error of contacts per cycle in chaos: CONTACTS_OFF * reference + SURE * standard error.
+# In chaos the contacts per cycle may be off by the fraction CONTACTS_OFF plus SURE standard errors.
 CONTACTS_OFF, SURE = 0.1, 2
 
 
 class ComparisonScene(NamedTuple):
-    """A motion from `state` at W T = pi/2. `motion` is "steady", "transient" or "chaotic"."""
+    """A test motion from `state` at W T = pi/2; `motion`: "steady", "transient" or "chaotic"."""
 
     oscillator: Oscillator
     damper: Damper | None
@@ -105,7 +105,7 @@ def accuracy(system, damper, *, name, settings, references, **given):
 
 
 def _integrations(scene, settings, slow_periods):
-    """Yield (label, tolerance, `Run`, cycles) of each run; if slow, `slow_periods` cycles."""
+    """Yield (label, tolerance, `Run`, cycles). A slow integrator runs for `slow_periods` cycles."""
     p, start = scene.p, np.array(scene.state, float)
     given = p, start, strobe_time(p), scene.periods
     for tolerance in settings["taylor"]:
@@ -193,9 +193,9 @@ def _orbits(scene, settings):
 
 
 def _times(scene, model, reference):
-    """Return the times at which contacts of a model begin, paired with the reference's contacts.
+    """Return the times at which a model's contacts begin, in the order of the reference's contacts.
 
-    If the contacts of a cycle cannot be paired one to one, all times are NaN.
+    If the contacts in a cycle cannot be matched one to one, all times are NaN.
     """
     p, period = scene.p, 2 * np.pi / scene.frequency
     count = len(reference.contact_times) // scene.periods

@@ -14,7 +14,7 @@ from impact_damper.model.exit_rules import damping_ratio
 
 
 class Exit(NamedTuple):
-    """End of a contact: outcome, duration s (or infinity), departure speed/v0 at q = 0 (or NaN)."""
+    """End of a contact. `duration` is in units of s, `departure` is the speed at u = 0 by v0."""
 
     outcome: str
     duration: float
@@ -22,7 +22,7 @@ class Exit(NamedTuple):
 
 
 class _Wave(NamedTuple):
-    """The function of s: level + exp(-z s) (a cos(w s) + b sin(w s)), with w = sqrt(1 - z^2)."""
+    """A decaying wave: level + exp(-z s) (a cos(w s) + b sin(w s)), with w = sqrt(1 - z^2)."""
 
     level: float
     a: float
@@ -40,7 +40,7 @@ class _Wave(NamedTuple):
         return _Wave(0.0, w * b - z * a, -z * b - w * a, z, w)
 
     def first_extrema(self):
-        """Return s at the first maximum (0 if the function falls at s = 0) and the next minimum."""
+        """Return s at the first maximum (0 if the wave falls at first) and at the next minimum."""
         slope = self.slope()
         turn = math.atan2(-slope.a, slope.b) % math.pi or math.pi
         rising = slope.a > 0 or (slope.a == 0 and slope.b > 0)
@@ -62,7 +62,7 @@ def _waves(restitution, load):
 
 
 def contact(restitution, load, rule) -> Exit:
-    """Return the `Exit` of a contact by a rule in `exit_rules.EXIT_RULES`."""
+    """Return how a contact ends by a rule in `exit_rules.EXIT_RULES`."""
     penetration, force = _waves(restitution, load)
     end = (penetration if rule == "zero_penetration" else force).first_fall()
     if end == math.inf:
@@ -75,7 +75,7 @@ def contact(restitution, load, rule) -> Exit:
 
 
 def pull_time(restitution, load) -> float:
-    """Return the share of a contact's duration with F < 0 (the wall pulls); NaN if u stays > 0."""
+    """Return the fraction of a contact during which the wall pulls; NaN if it never ends."""
     penetration, force = _waves(restitution, load)
     end = penetration.first_fall()
     return math.nan if end == math.inf else (end - min(force.first_fall(), end)) / end

@@ -26,7 +26,7 @@ def wall_at(p, z):
 
 @kernel
 def ahead(p, side, z):
-    """Return the distance to the nearest wall in flight (`side` 0), the penetration in contact."""
+    """In flight (`side` 0) return the distance to the nearest wall, in contact the penetration."""
     return p[CLEARANCE] - abs(z) if side == 0 else side * z - p[CLEARANCE]
 
 
@@ -53,13 +53,13 @@ def rate_by_position(p, drive, y):
 
 @kernel
 def moved(y, h, k):
-    """Return the state y + h k, with a step h and a rate k."""
+    """Return the state after a step h from y at the constant rate k."""
     return y[0] + h * k[0], y[1] + h * k[1], y[2] + h * k[2], y[3] + h * k[3]
 
 
 @kernel_only
 def largest_within(x, v, x_end, v_end, h):
-    """Return max |Z1| in a step h from (Z1, Z1') = (x, v) to (x_end, v_end); Z1' is linear in T."""
+    """Return max |Z1| in a step h from Z1 = x, Z1' = v to x_end, v_end if Z1' is linear in T."""
     largest = max(abs(x), abs(x_end))
     if v * v_end < 0.0:
         largest = max(largest, abs(x + 0.5 * h * v * v / (v - v_end)))

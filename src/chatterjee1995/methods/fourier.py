@@ -12,7 +12,7 @@ SHORTEST = 1e-9  # smallest width of an interval that the search for crossings h
 
 
 def samples(coefficients, harmonics, count) -> np.ndarray:
-    """Return a series at 2 pi j/count, j = 0 ... count - 1. `count` must exceed 2 harmonics[-1]."""
+    """Return `count` equidistant values, first at s = 0; `count` must exceed 2 harmonics[-1]."""
     spectrum = np.zeros(count // 2 + 1, complex)
     spectrum[harmonics] = coefficients
     return np.fft.irfft(spectrum, count) * count
@@ -25,12 +25,12 @@ def value(coefficients, harmonics, angle, order=0) -> np.ndarray:
 
 
 def product_samples(harmonics, degree) -> int:
-    """Return a number of samples that gives exact `harmonics` of a product of `degree` series."""
+    """Return how many samples of a product of `degree` series give its `harmonics` exactly."""
     return next_fast_len((degree + 1) * int(harmonics[-1]) + 1, real=True)
 
 
 def largest(coefficients, harmonics) -> float:
-    """Return the maximum of |z(s)|. Newton's method for z'(s) = 0 starts at the largest samples."""
+    """Return the maximum of |z(s)|, found by Newton's method from the largest samples."""
     count = next_fast_len(16 * int(harmonics[-1]) + 64)
     size = np.abs(samples(coefficients, harmonics, count))
     top = np.flatnonzero((size >= np.roll(size, 1)) & (size >= np.roll(size, -1)))
@@ -42,10 +42,10 @@ def largest(coefficients, harmonics) -> float:
 
 
 def intervals(coefficients, harmonics, level) -> np.ndarray:
-    """Return rows (wall, begin, end): intervals with z > level (wall 1) or z < -level (wall -1).
+    """Return a row (wall, begin, end) for each interval with z > level or z < -level (wall -1).
 
     The search divides a period into cells. It halves a cell until a bound on z'' proves that z
-    crosses the level in the cell once or never. No interval wider than SHORTEST is missed.
+    crosses the level at most once in it. No interval wider than SHORTEST is missed.
     """
     return np.concatenate([_beyond(coefficients, harmonics, level, wall) for wall in (1, -1)])
 
@@ -71,7 +71,7 @@ def _beyond(coefficients, harmonics, level, wall):
 
 
 def _cells(function, coefficients, harmonics, ends, values):
-    """Return rows (begin, end): the cells in which `function` changes sign, in ascending order."""
+    """Return a row (begin, end) for each cell in which `function` changes sign, in order."""
     bound = 2 * np.sum(harmonics**2 * np.abs(coefficients))
     lower, upper, first, last = ends[:-1], ends[1:], values[:-1], values[1:]
     crossed = []
@@ -92,7 +92,7 @@ def _cells(function, coefficients, harmonics, ends, values):
 
 
 def indicator(rows, orders) -> np.ndarray:
-    """Return Fourier coefficients of the function that is 1 in the intervals of `rows`, else 0."""
+    """Return Fourier coefficients of a function: 1 in the intervals of `rows`, 0 elsewhere."""
     _, begin, end = rows.T[:, :, None]
     half = (end - begin) / 2
     turn = np.exp(-0.5j * orders * (begin + end))

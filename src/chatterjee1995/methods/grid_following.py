@@ -12,7 +12,7 @@ SHORTEST = 1 / 32  # shortest step along a line between two points, divided by t
 def follow_line(
     correct, first, last, orbit, *, shortest=SHORTEST, extrapolating=False, behind=None
 ) -> Followed:
-    """Follow an orbit along the straight line between two points in the space of parameters."""
+    """Follow an orbit while the parameters move on a straight line from `first` to `last`."""
 
     def correct_at(fraction, guess):
         return correct((1 - fraction) * first + fraction * last, guess)
@@ -30,7 +30,7 @@ def follow_line(
 
 
 class Grid:
-    """Orbits in the cells of a grid `points`, followed along the axes in the order of `axes`."""
+    """Orbits in the cells of the grid `points`, followed to neighbours along each of `axes`."""
 
     def __init__(self, points, correct, *, shortest=SHORTEST, axes=None, extrapolating=False):
         self.points, self.correct = points, correct

@@ -8,15 +8,15 @@ from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigs
 
 # For more than DENSE unknowns, `eigs` computes only the 4 * COPIES eigenvalues nearest 0.
 DENSE, COPIES = 100, 3
-# Of the copies of an exponent, the copy with -W < Im <= W is kept. Against rounding, Im is set to W
-# if |Im - W| < EDGE * W, and copies with |Im + W| < EDGE * W are left out.
+# Each exponent is found several times, in copies 2 i W apart. The copy with -W < Im <= W is kept.
+# EDGE * W allows for rounding errors of Im at both limits.
 EDGE = 1e-2
 
 
 class Exponents(NamedTuple):
     """Floquet exponents per unit of T, sorted by real part; all NaN if the status is not "found".
 
-    Status "not_separated": the number of eigenvalues with -W < Im <= W is not 2 (4 with damper).
+    The status is "not_separated" if not exactly 2 copies (4 with a damper) have -W < Im <= W.
     """
 
     values: np.ndarray
@@ -47,7 +47,7 @@ def exponents(solution) -> Exponents:
 
 
 def _near_zero(stiffness, damping, inertia):
-    """Return eigenvalues of (stiffness + lambda damping + lambda^2 inertia) p = 0 (see DENSE)."""
+    """Return eigenvalues lambda in (stiffness + lambda damping + lambda^2 inertia) p = 0."""
     size = len(stiffness)
     factors = lu_factor(stiffness, check_finite=False)
 

@@ -38,13 +38,13 @@ class Integrator:
 
     `p` are packed parameters, `start` is the state at the time `begin`, and `periods` the number of
     forcing cycles. If `locate` is true, steps end where contacts begin and end. `resolution` is the
-    number of steps in a cycle if steps are `fixed`, and otherwise a tolerance.
+    number of steps in a cycle if all steps are equal (`fixed`), and otherwise a tolerance.
 
     Figures show integrators in the order of `place`. `compared` names the stages that use the
-    integrator. The integrator defines a function in REQUIRED for each stage. Stage `accuracy`:
-    `located` holds the values of `locate` to run. `tolerances` is one of `labels.TOLERANCE_KEYS`.
-    `slow` is true if cycles and evaluations are limited. Stage `stable_steps`: `stability_limit` is
-    the largest h omega for which steps h keep x'' = -omega^2 x bounded.
+    integrator. For each stage it defines one of the functions in REQUIRED. `located` holds the
+    values of `locate` to run in the stage `accuracy`. `tolerances` is one of
+    `labels.TOLERANCE_KEYS`. Runs of a `slow` integrator are shortened. `stability_limit` is the
+    largest step, times natural frequency, that keeps an undamped linear oscillation bounded.
     """
 
     REQUIRED: ClassVar = {
@@ -65,7 +65,7 @@ class Integrator:
         return f"{self.name}_{'located' if locate else 'kink'}"
 
     def steps(self, p, start, begin, periods, tolerance, locate, most_evaluations):
-        """Return status, operations, times (n,), states (n, 4): first the start, then step ends."""
+        """Return status, operations, and times (n,) and states (n, 4) of start and step ends."""
         raise NotImplementedError
 
     def run(self, p, *given) -> Run:
@@ -76,26 +76,26 @@ class Integrator:
         return read_off(p, work, times, ends)
 
     def flight(self, p, state, end, resolution, time):
-        """Run without walls to T = `end`; return |Z2| at step ends and at `time`. None: failure."""
+        """Run from T = 0 without walls; return |Z2| at step ends and at `time`, or None."""
         raise NotImplementedError
 
     def touches(self, p, state, levels, resolution):
-        """Return a mask: whether a wall at each level is touched. None if `flight` decides."""
+        """Return whether the motion touches a wall at each level; None if `flight` shows this."""
 
     def largest_displacements(self, p, start, begin, periods, steps) -> np.ndarray:
-        """Return max |Z1| in each cycle of `steps` equal steps; NaN after the run has diverged."""
+        """Return max |Z1| in each cycle, with `steps` equal steps a cycle; NaN after divergence."""
         raise NotImplementedError
 
 
 def read_off(p, work, times, ends):
-    """Return the `Run` with states `ends` at `times`. Quintic polynomials join these states."""
+    """Return the `Run` through the states `ends` at `times`, joined by quintic polynomials."""
     at, peaks = _turning_points(p, times, ends)
     began = _beginnings(p, times, ends)
     return Run("ended", work, ends[-1], began, at, peaks, float(np.max(peaks)))
 
 
 def _beginnings(p, times, ends):
-    """Return the times of |Z2| = d0 in steps that begin within the gap and end beyond a wall."""
+    """Return the times at which contacts begin, in steps from the gap to a place beyond a wall."""
     place, distance = ends[:, 2], p[CLEARANCE] - np.abs(ends[:, 2])
     inside = (distance > 0) | ((distance == 0) & (place * ends[:, 3] < 0))
     steps = np.flatnonzero(inside[:-1] & ~inside[1:])
@@ -106,7 +106,7 @@ def _beginnings(p, times, ends):
 
 
 def _turning_points(p, times, ends):
-    """Return the times of the zeros of Z1' and of both ends of the run, and |Z1| at these times."""
+    """Return the times at which Z1' is 0 or the run begins or ends, and |Z1| at these times."""
     steps = np.flatnonzero(ends[:-1, 1] * ends[1:, 1] < 0)
     course = _quintics(p, times, ends, 0, steps)
     fraction = root(polyder(course), 0.0, 1.0)
@@ -119,7 +119,7 @@ def _turning_points(p, times, ends):
 
 
 def _quintics(p, times, ends, index, steps):
-    """Return Hermite polynomials (6, m) of component `index` in m steps, each scaled to [0, 1]."""
+    """Return polynomials (6, m) of one state component in m steps, over the fraction of a step."""
     rates = [
         np.array([rate(p, wall_at(p, ends[k, 2]), times[k], tuple(ends[k])) for k in at])
         for at in (steps, steps + 1)
@@ -135,7 +135,7 @@ def _quintics(p, times, ends, index, steps):
 
 
 def root(coefficients, low, high):
-    """Return a root of each polynomial (column), which changes sign between `low` and `high`."""
+    """Return a root of each polynomial (a column), whose signs at `low` and `high` differ."""
     sign = np.sign(polyval(low, coefficients, tensor=False))
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)

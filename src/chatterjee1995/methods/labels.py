@@ -17,12 +17,12 @@ MODELS = {
 }
 START_HARMONICS = 15  # shooting and rigid impacts start from the balance with this highest harmonic
 
-# Keys of the lists of tolerances in the section `comparison`. `Integrator.tolerances` is a key.
+# Names of the lists of tolerances in the section `comparison`, for `Integrator.tolerances`.
 TOLERANCE_KEYS = ("taylor", "merson", "scipy")
 
 
 def method_in_words(label) -> str:
-    """Return the title of the model, integrator or run `label`; the label itself if unknown."""
+    """Return the title of a model, integrator or run by its label; an unknown label itself."""
     if label in MODELS:
         return MODELS[label]
     if label in integrators():

@@ -18,7 +18,7 @@ from impact_damper.theory.free_oscillator import main_solutions
 
 @dataclass(frozen=True)
 class Balance:
-    """The equations of a motion with Z(T + pi/W) = -Z(T). Such a motion has only odd harmonics."""
+    """Equations of a symmetric motion, Z(T + pi/W) = -Z(T), which has only odd harmonics."""
 
     oscillator: object
     damper: object
@@ -55,22 +55,22 @@ class Balance:
         return len(self.harmonics) * (2 if self.damper is None else 4)
 
     def to_real(self, coefficients) -> np.ndarray:
-        """Return coefficients (1 or 2, m) as real unknowns: Re Z1, Im Z1, then any Re Z2, Im Z2."""
+        """Return coefficients (1 or 2, m) in a real vector: Re Z1, Im Z1 (and Re Z2, Im Z2)."""
         return np.hstack([coefficients.real, coefficients.imag]).ravel()
 
     def to_complex(self, unknowns) -> np.ndarray:
-        """Return the complex coefficients, shape (1 or 2, m), of real unknowns from `to_real`."""
+        """Return the complex coefficients (1 or 2, m) in a vector from `to_real`."""
         parts = unknowns.reshape(-1, 2, len(self.harmonics))
         return parts[:, 0] + 1j * parts[:, 1]
 
     def contacts(self, coefficients) -> np.ndarray:
-        """Return a row (wall, begin, end) for each contact in a cycle; begin and end are W T."""
+        """Return a row (wall, begin, end) for each contact in a cycle; begin and end are phases."""
         if self.damper is None:
             return np.empty((0, 3))
         return fourier.intervals(coefficients[1], self.harmonics, self.damper.clearance)
 
     def residual(self, coefficients, rows) -> np.ndarray:
-        """Return left minus right sides of (3), (4), (20), (21) by harmonic; `rows`: contacts."""
+        """Return left minus right side of (3), (4), (20), (21) by harmonic; see `contacts`."""
         k, rate, own = self.harmonics, self.rates, self.oscillator
         first = coefficients[0]
         count = fourier.product_samples(k, SPRING_POWER)
@@ -126,7 +126,7 @@ class Balance:
 
 
 def _convolution(coefficients, harmonics):
-    """Return matrices A, B: the product of series z and `coefficients` is A z + B conj(z)."""
+    """Return matrices A and B. A z + B conj(z) is the product of the series z and the given one."""
     two_sided = np.concatenate([coefficients[:0:-1].conj(), coefficients])
     zero = len(coefficients) - 1
     column = harmonics[:, None]
@@ -134,7 +134,7 @@ def _convolution(coefficients, harmonics):
 
 
 def _real(by_value, by_conjugate):
-    """Return the real matrix of dz -> by_value dz + by_conjugate conj(dz), for (Re dz, Im dz)."""
+    """Return the function by_value z + by_conjugate conj(z) as a real matrix for (Re z, Im z)."""
     total, difference = by_value + by_conjugate, by_value - by_conjugate
     return np.block([[total.real, -difference.imag], [total.imag, difference.real]])
 
@@ -145,9 +145,9 @@ TOLERANCE, ITERATIONS, LEAST_DAMPING = 1e-11, 40, 1e-4
 
 
 class Solution(NamedTuple):
-    """Result of Newton's method: coefficients c_k of Z1 and, with a damper, of Z2; (1 or 2, m).
+    """Result of Newton's method: the coefficients of Z1 and, with a damper, of Z2; (1 or 2, m).
 
-    The status is "converged", "iteration_limit", or "stalled" if the shortest step fails too.
+    The status is "converged", "iteration_limit", or "stalled" if even the shortest step fails.
     """
 
     balance: Balance
@@ -160,7 +160,7 @@ def solve(balance, start) -> Solution:
     """Solve the equations of a balance by damped Newton's method, from coefficients `start`.
 
     The natural monotonicity test (Deuflhard, Newton Methods for Nonlinear Problems, 2004, section
-    3.3) decides whether a step is halved. Stiff contacts dominate the residual, so it is not used.
+    3.3) decides whether to halve a step. The residual cannot, because stiff contacts dominate it.
     """
     count = len(balance.harmonics)
     now = np.zeros((len(start), count), complex)
@@ -204,7 +204,7 @@ def single_term(oscillator, damper, frequency) -> np.ndarray:
 
 
 def refine(balances, start) -> list:
-    """Return the `Solution` of each balance. A search starts from the last converged solution."""
+    """Return the `Solution` of each balance, from the last converged one as the first guess."""
     solutions = []
     for balance in balances:
         solutions.append(solve(balance, start))

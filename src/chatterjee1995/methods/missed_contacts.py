@@ -45,7 +45,7 @@ def missed_contacts(
 ):
     """Return a dataset with the numbers of contacts near grazing that integrators find and miss.
 
-    `steps` are steps per cycle of integrators with equal steps, one value for each tolerance.
+    An integrator with equal steps uses `steps`, numbers of steps per cycle, not `tolerances`.
     """
     depths = read_increasing(UNITLESS, "depths", depths, above=0.0)
     tolerances = read_increasing(UNITLESS, "tolerances", tolerances, **METHOD_TOLERANCE_RANGE)
@@ -68,7 +68,7 @@ def missed_contacts(
 
 
 def counts(integrator, p, passages, depths, resolution):
-    """Return three: passages by (depth, outcome), spurious contacts by depth, and median error."""
+    """Return passages by (depth, outcome), contacts that do not exist by depth, median error."""
     end = 2 * math.pi / p[FREQUENCY]
     touching = np.zeros((len(depths), len(OUTCOMES)), int)
     spurious = np.zeros(len(depths), int)
@@ -111,9 +111,9 @@ def _count_table(p, passages, depths, tolerances, steps):
 
 
 def _expected(passages, depths, steps, period):
-    """Return expected shares (steps, depth) of unseen contacts: means of max(0, 1 - b/h).
+    """Return expected shares (steps, depth) of contacts that begin and end within one step.
 
-    Steps of duration h begin at random times. A contact lasts b = 2 sqrt(2 depth/|Z2''|).
+    A contact lasts b = 2 sqrt(2 depth/|Z2''|), and fits in a step h with chance max(0, 1 - b/h).
     """
     curvatures = np.array([passage.curvature for passage in passages])
     beyond = 2 * np.sqrt(2 * depths / curvatures[:, None])

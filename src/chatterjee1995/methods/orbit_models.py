@@ -1,4 +1,4 @@
-"""Models of motions: rigid walls, harmonic balance, shooting. `work` counts operations."""
+"""Motions by rigid walls, harmonic balance and shooting. `work` is a number of operations."""
 
 import math
 from dataclasses import replace
@@ -33,7 +33,7 @@ from impact_damper.orbits.shooting import find_orbit
 from impact_damper.theory import single_harmonic
 from impact_damper.theory.free_oscillator import free_solutions
 
-# Operations to find all solutions: FULL_WORK for (7), RIGID_WORK for (14).
+# Number of operations that find all solutions of (7), FULL_WORK, or of (14), RIGID_WORK.
 FULL_WORK, RIGID_WORK = 100 * 130 + 10 * 32**3, 10 * (6**3 + 5**3) + 6 * 10 * 12
 REACH = 10.0  # largest difference of a rigid orbit's state from the first guess, in each component
 
@@ -88,7 +88,7 @@ def of_coefficients(balance, coefficients, work):
 
 
 def rigid_balance(oscillator, damper, frequency, state):
-    """Return the `Model` by (13), (14) with (Z1, Z1') nearest to `state`. Only for e = 1."""
+    """Return the `Model` from the solution of (13), (14) nearest to `state`. It needs e = 1."""
     if damper is None or damper.restitution != 1:
         return without("not_applicable")
     roots = single_harmonic.rigid_solutions(oscillator, damper, frequency)
@@ -104,7 +104,7 @@ def rigid_balance(oscillator, damper, frequency, state):
 
 
 def full_balance(oscillator, damper, frequency, state):
-    """Return the `Model` by (7) with (Z1, Z1') nearest to `state`. A damper must have e = 1."""
+    """Return the `Model` from the solution of (7) nearest to `state`. A damper needs e = 1."""
     if damper is not None and damper.restitution != 1:
         return without("not_applicable")
     coefficients, work = nearest_term(oscillator, damper, frequency, state)
@@ -114,7 +114,7 @@ def full_balance(oscillator, damper, frequency, state):
 
 
 def nearest_term(oscillator, damper, frequency, state):
-    """Return a pair: coefficients of the solution of (7) nearest to `state` (or None), and work."""
+    """Return the Fourier coefficients of the solution of (7) nearest to `state`, and the work."""
     if damper is None:
         work = 2 * 10 * 3**3
         solutions = free_solutions(oscillator, frequency)
@@ -137,7 +137,7 @@ def nearest_term(oscillator, damper, frequency, state):
 
 
 def many_harmonics(oscillator, damper, frequency, state, highest):
-    """Return a dict: highest harmonic 3, 7, 15, ... -> `Model`; empty if (7) has no solution."""
+    """Return a dict of `Model` by highest harmonic 3, 7, 15, ...; empty if (7) has no solution."""
     coefficients, work = nearest_term(oscillator, damper, frequency, state)
     models = {}
     if coefficients is None:
@@ -186,7 +186,7 @@ def rigid_impacts(oscillator, damper, frequency, start):
 
 
 def shooting(oscillator, damper, frequency, start):
-    """Return the `Model` by shooting with the Taylor series, from the first guess `start`."""
+    """Return the `Model` of the exact orbit, found by shooting from the model `start`."""
     p = pack(oscillator, damper, frequency)
     orbit = find_orbit(p, start.state)
     steps, _ = all_steps(p, start.state, strobe_time(p), 1, POLISH_TOLERANCE)

@@ -1,4 +1,4 @@
-"""Passages: random flights without walls. The largest |Z2| is exact except for rounding."""
+"""Passages: random motions without walls, whose largest |Z2| is exact except for rounding."""
 
 import math
 from typing import NamedTuple
@@ -15,7 +15,7 @@ TOLERANCE = 1e-15  # tolerance of the Taylor series
 
 
 class Passage(NamedTuple):
-    """A cycle without walls from `state` at T = 0; T, |Z2| and |Z2''| where |Z2| is largest."""
+    """A cycle without walls from `state` at T = 0; time, |Z2| and |Z2''| where |Z2| is largest."""
 
     state: np.ndarray
     time: float
@@ -25,7 +25,7 @@ class Passage(NamedTuple):
 
 @kernel
 def largest_of_flight(p, y, t, end):
-    """Integrate y from t to end; return T, |Z2| and |Z2''| (0 at an end) where |Z2| is largest."""
+    """Integrate y in place from t to end; return T, |Z2| and |Z2''| where |Z2| is largest."""
     work = workspace()
     flight = np.int64(0)  # not the literal 0, for which numba would compile `step` again
     c = np.zeros(FLIGHT_ORDER + 1)
@@ -70,7 +70,7 @@ def without_walls(p):
 def draw_passages(p, count, radius, deepest, seed) -> list:
     """Return a list of `count` passages. The states at T = 0 are random in a ball with `radius`.
 
-    A passage is kept if max |Z2| > 2 deepest, and max |Z2| - deepest > |Z2| at both ends.
+    A passage is kept if max |Z2| exceeds 2 * deepest and exceeds |Z2| at both ends by `deepest`.
     """
     random = np.random.default_rng(seed)
     flying = without_walls(p)

@@ -1,7 +1,7 @@
 """The quiet orbit, stable or not, on a grid of parameters, and rules for the optimum clearance.
 
-The orbit is a fixed point of a map that integrates half a cycle and changes the state's sign. The
-derivative of this map is called the root: root^2 is the derivative of the state after a cycle.
+A map that integrates half a cycle and then changes the state's sign leaves the orbit's state as it
+is. The map's derivative is called the root, since its square is the derivative after a cycle.
 """
 
 from typing import NamedTuple
@@ -18,7 +18,7 @@ CONTACTS = 2  # number of contacts of a quiet orbit in a cycle
 
 
 class CompliantOrbit(NamedTuple):
-    """A symmetric orbit, 2 contacts a cycle: state at W T = pi/2, largest multiplier, max |Z1|."""
+    """A symmetric orbit with 2 contacts a cycle: state at W T = pi/2, multiplier, max |Z1|."""
 
     parameters: np.ndarray
     state: np.ndarray
@@ -38,20 +38,20 @@ def compliant_orbit(p, guess, reach, *, tolerance=POLISH_TOLERANCE, asymmetry=SY
     return CompliantOrbit(p, state, multiplier, float(record["maximum_displacement"])), "found"
 
 
-# W T of the states of orbits. Contacts occur at other W T: from -0.2 to pi/2, and pi later.
+# Phase W T at which the states of orbits are given. Contacts take place at other phases.
 PHASE = 0.75 * np.pi
 REACH = 0.05  # largest distance of the state of an orbit from the guess
 SHORTEST = 2.0**-12  # shortest step between two cells, divided by the distance of the cells
-# A row ends at a fold that extrapolation predicts within NEAR * SHORTEST columns of the last orbit.
+# A row ends at a fold if extrapolation finds one within NEAR * SHORTEST columns of the last orbit.
 NEAR = 4
 
 
 class QuietOrbits(NamedTuple):
     """Quiet orbits on a grid, NaN in cells without one; shape (rows, columns).
 
-    multiplier: Eigenvalue of the root with the largest modulus; of a complex pair, with Im > 0.
-    displacement, harmonic: max |Z1|, and amplitude of the first harmonic of Z1.
-    end: Columns (with fractions) between which a row has orbits; shape (rows, 2).
+    multiplier: The root's eigenvalue of largest modulus; of a complex pair, the one with Im > 0.
+    displacement, harmonic: max |Z1|, and the amplitude of the first harmonic of Z1.
+    end: First and last column, in fractions, at which a row has orbits; shape (rows, 2).
     end_event: Event at each end: map_ends, no_orbit, fold, contacts_change or not_converged.
     """
 
@@ -63,7 +63,7 @@ class QuietOrbits(NamedTuple):
 
 
 def straight_flight_end(oscillator, clearance, restitution) -> float:
-    """Return W at the fold of quiet orbits by the theory of straight flight (inf without a fold).
+    """Return W at which quiet orbits fold by the theory of straight flight; inf without a fold.
 
     At the fold W^2 d0/f = sqrt(1 + k^2), with k = (pi/2) (1 + e)/(1 - e) and f = F + U W^2.
     """
@@ -105,14 +105,14 @@ def find_quiet_orbit(p, guess):
 
 
 def _dominant_root(orbit):
-    """Return the eigenvalue of the root with the largest modulus; of a complex pair: Im > 0."""
+    """Return the root's eigenvalue of largest modulus; of a complex pair, the one with Im > 0."""
     values = np.linalg.eigvals(orbit.matrix)
     value = values[np.argmax(np.abs(values))]
     return complex(value.real, abs(value.imag))
 
 
 def _row_ends(grid, row):
-    """Return columns (with fractions) at which the orbits of a row end, and the events there."""
+    """Return the columns, in fractions, at which the orbits of a row end, and the events there."""
     columns = [column for first, column in grid.orbits if first == row]
     if not columns:
         return [np.nan] * 2, ["no_orbit"] * 2
@@ -131,7 +131,7 @@ def _end(followed):
 
     Near a fold, det(1 - root) is proportional to the square root of the distance to the fold.
     """
-    # `spread` failed here, but now the step can succeed: the orbit behind this cell is known.
+    # This step failed in `spread`. It can succeed now that the orbit behind this cell is known.
     if followed.arrived:
         return 0.0, "not_converged"
     before, fraction = followed.values
@@ -143,11 +143,11 @@ def _end(followed):
     return fraction, followed.status
 
 
-# Ratio rm W^2 d0/f by (18) with the first harmonic of Z2 in place of d0. This first harmonic is
-# 8 d0/pi^2 if the primary mass rests and the loose mass flies between walls at constant speed.
+# The ratio rm W^2 d0/f by rule (18) if d0 in the rule is replaced by the first harmonic of Z2. This
+# is 8 d0/pi^2 if the primary mass rests and the loose mass flies to and fro at constant speed.
 FIRST_HARMONIC_RATIO = np.pi**2 / 8
-# Impulse q for which |x| is equal at impact and turning point, and phase phi of the turning point.
-# If e = 1 and h = 0 without a spring, q - 1 = cos(phi) - q + 2 q phi/pi and sin(phi) = 2 q/pi.
+# Impulse q of an impact, and phase phi of a turning point, if |Z1| is equally large at both. For
+# e = 1, h = 0 and no spring, q - 1 = cos(phi) - q + 2 q phi/pi and sin(phi) = 2 q/pi.
 IMPULSE, TURN = 1.1382168528663819, 0.8104702831754177
 # CRITERIA: quantities of Z1. An optimum clearance minimises one of these quantities.
 # RULES: rules for the optimum clearance, see `rule_ratios`.
@@ -156,7 +156,7 @@ RULES = ("balance", "gap_harmonic", "straight_flight", "elastic", "flight")
 
 
 def elastic_ratios(flight) -> tuple[float, float]:
-    """Return the optimum rm W^2 d0/f for both CRITERIA, to first order in contact and damping."""
+    """Return the optimum rm W^2 d0/f for both CRITERIA, for short contacts and small damping."""
     if flight.restitution != 1:
         return np.nan, np.nan
     contact, damping, whole = flight.contact, flight.damping, 1 + flight.mass_ratio
@@ -170,9 +170,9 @@ def elastic_ratios(flight) -> tuple[float, float]:
 def least_harmonic_ratio(flight) -> float:
     """Return rm W^2 d0/f at which the first harmonic of Z1 is smallest.
 
-    Forcing and impulses q have the first harmonic 1 - c q exp(-i p), with c = 8/pi^2. p is the lag
-    of an impact behind the maximum of the forcing. Let sin(u) = q l, l = `flight.loss`, n = u - p.
-    |1 - c q exp(-i p)| is smallest where tan(2 u) = 2 l cos(n)/(c - 2 l sin(n)).
+    Impacts with the impulse q take place at the phase p after the maximum of the forcing. Forcing
+    and impacts together have the first harmonic 1 - c q exp(-i p), with c = 8/pi^2. Its modulus is
+    smallest if tan(2 u) = 2 l cos(n)/(c - 2 l sin(n)), l = `flight.loss`, sin(u) = q l, n = u - p.
     """
     factor = 8 / np.pi**2
     loss = flight.loss
@@ -184,11 +184,11 @@ def least_harmonic_ratio(flight) -> float:
 
 
 def rule_ratios(oscillator, damper, frequency):
-    """Return the optimum rm W^2 d0/f for each of CRITERIA (rows) by each of RULES (columns).
+    """Return the optimum rm W^2 d0/f: a row for each of CRITERIA, a column for each of RULES.
 
     `balance` is rule (18). `gap_harmonic` is FIRST_HARMONIC_RATIO. `straight_flight` is the optimum
-    for straight flight between rigid walls. `elastic` also considers, to first order, duration of
-    contacts and damping (NaN if e < 1). `flight` considers duration, damping and stiffness.
+    for straight flight between rigid walls. `elastic` is corrected for short contacts and small
+    damping (NaN if e < 1), `flight` for the duration of contacts, damping and stiffness.
     """
     flight = flight_of(oscillator, damper, frequency)
     straight = Flight(damper.mass_ratio, damper.restitution)

@@ -59,9 +59,9 @@ def rebound(p, restitution, y, tangents, t):
 def rigid_map(p, restitution, y, tolerance):
     """Integrate the rigid model over one forcing cycle from the state y at W T = pi/2.
 
-    The dashpot in p must be 0. Return the final state, its derivative by y, the number of impacts,
-    the smallest |Z2'| before an impact (or infinity), a pair for the first impact, and max |Z1|.
-    The pair is |Z2'| and the acceleration of Z1 towards the wall, both before the impact (or NaN).
+    p must have no dashpot. Return the final state, its derivative by y, the number of impacts, the
+    smallest |Z2'| before an impact (or infinity), a pair for the first impact, and max |Z1|. The
+    pair holds |Z2'| and the acceleration of Z1 towards the wall just before the impact (or NaN).
     After MOST_IMPACTS impacts, only the number of impacts is valid.
     """
     state = y.copy()
@@ -93,7 +93,7 @@ def without_dashpot(p):
 
 
 class RigidOrbit(NamedTuple):
-    """A symmetric orbit, two impacts a cycle. `speed`, `acceleration`: just before an impact."""
+    """A symmetric orbit with 2 impacts a cycle; `speed`, `acceleration`: just before an impact."""
 
     state: np.ndarray
     multiplier: complex

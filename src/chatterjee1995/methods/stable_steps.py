@@ -1,4 +1,4 @@
-"""Largest steps with which methods of equal steps keep max |Z1| of quiet motions, for each r1."""
+"""Largest steps with which methods of equal steps compute quiet motions well, for each r1."""
 
 import itertools
 import math
@@ -39,7 +39,7 @@ contact_frequency | contact_stiffness | | omega_c | natural frequency of an unda
 )
 
 ACCURACIES = (0.01, 0.1)  # allowed relative error of max |Z1| in each cycle
-# FACTOR: largest ratio of successive r1. REACH: largest distance of an orbit from the first guess.
+# FACTOR: largest ratio of successive r1. REACH: largest change of an orbit's state between them.
 FACTOR, REACH = 10.0**0.0625, 0.2
 EXACT = 1e-13  # tolerance of the exact orbits, with which runs are compared
 CONFIRMED = 4  # the motion must be kept by at least this number of the smallest tested steps
@@ -47,7 +47,7 @@ STIFF = 1e3  # least r1 in the fit of `step_slope`; for larger r1 contacts are s
 
 
 def orbits_over_stiffness(oscillator, damper, frequency, stiffnesses) -> list:
-    """Return a quiet `CompliantOrbit` or None at each r1, followed from the damper's own r1.
+    """Return the quiet orbit (or None) at each stiffness, followed from the damper's own stiffness.
 
     Raise ArithmeticError if a start with the primary mass at rest leads to no quiet motion.
     """
@@ -78,7 +78,7 @@ def orbits_over_stiffness(oscillator, damper, frequency, stiffnesses) -> list:
 
 
 def _in_steps(own, targets):
-    """Return `own`, all targets, and values between them: successive ratios are at most FACTOR."""
+    """Return `own`, the targets, and values between; a value is at most FACTOR times the last."""
     cells = [np.array([own])]
     for before, target in itertools.pairwise([own, *targets]):
         count = max(math.ceil(abs(math.log(target / before)) / math.log(FACTOR)), 1)
@@ -87,7 +87,7 @@ def _in_steps(own, targets):
 
 
 def _largest_step(held, tested, steps):
-    """Return the largest step up to which all tested steps hold the motion; NaN if < CONFIRMED."""
+    """Return the largest tested step up to which none fails; NaN if fewer than CONFIRMED hold."""
     held, steps = held[tested], steps[tested]
     failing = np.flatnonzero(~held)
     first = failing[-1] + 1 if len(failing) else 0
@@ -95,7 +95,7 @@ def _largest_step(held, tested, steps):
 
 
 def _slope(stiffnesses, steps):
-    """Return slope and error of a fit of log(1/step) over log r1, r1 >= STIFF; NaN if < 3 steps."""
+    """Fit a line to log(1/step) over log r1, for r1 >= STIFF; return slope and error, or NaN."""
     use = np.isfinite(steps) & (stiffnesses >= STIFF)
     if use.sum() < 3:
         return np.nan, np.nan
@@ -104,7 +104,7 @@ def _slope(stiffnesses, steps):
 
 
 def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, most_steps, periods):
-    """Return a dataset of the largest stable steps. `scaled_steps`: h omega_c, increasing."""
+    """Return a dataset of the largest stable steps. `scaled_steps` holds h omega_c, increasing."""
     stiffnesses = read_increasing(UNITLESS, "stiffnesses", stiffnesses, **STIFFNESS_RANGE)
     scaled = read_increasing(UNITLESS, "scaled_steps", scaled_steps, above=0)
     scaled = scaled[::-1]
@@ -141,7 +141,7 @@ def _deviations(method, orbits, counts, tested, periods):
 
 
 def _step_data(deviations, tested, sizes, stiffnesses):
-    """Return a dict: largest step for each accuracy, and slopes of log(1/step) over log r1."""
+    """Return a dict: the largest step for each accuracy, and the slopes from `_slope`."""
     shape = len(deviations), len(stiffnesses), len(ACCURACIES)
     stable = np.empty(shape)
     for m, i, k in np.ndindex(shape):

@@ -1,4 +1,4 @@
-"""Map of errors of harmonic balance with one harmonic, for quiet and high (violent) motions."""
+"""Map of the errors of one-term harmonic balance, for quiet and for violent ("high") motions."""
 
 from dataclasses import replace
 from functools import lru_cache, partial
@@ -72,8 +72,8 @@ class Cells(NamedTuple):
     """Solutions of harmonic balance in all cells of a map, and start states of runs at T = 0.
 
     `resonance` is the amplitude on the free resonance branch or, beyond the branch, at its end.
-    Amplitude and start of an absent solution are NaN, with one exception: without a high solution,
-    `high_start` is on the free resonance branch (NaN beyond it), with the loose mass at rest.
+    Amplitude and start are NaN where a solution is absent. But without a high solution `high_start`
+    lies on the free resonance branch, if the branch exists there, with the loose mass at rest.
     """
 
     resonance: np.ndarray
@@ -88,8 +88,8 @@ class Cells(NamedTuple):
 def balance_cells(rows) -> Cells:
     """Solve the harmonic balance (7) in all cells of a map.
 
-    The limit of |a| is HIGH times `Cells.resonance`. The quiet solution has the smallest |a|, below
-    the limit. The high solution is stable and has the largest |a|, not below the limit.
+    The quiet solution is the smallest one, if its |a| is below the limit HIGH * `Cells.resonance`.
+    The high solution is the largest stable one, if its |a| is not below this limit.
     """
     cells = [
         [_cell(oscillator, damper, frequency) for frequency in frequencies]
@@ -159,7 +159,7 @@ class _Row(NamedTuple):
 
 
 def balance_map(parameter, values, frequency_ratios, fixed, *, settling, workers=1, progress=None):
-    """Return a dataset: harmonic balance and exact motions, by parameter (rows) and W/Wp (columns).
+    """Return a dataset: harmonic balance and exact motions over a parameter (rows) and W/Wp.
 
     `fixed` holds the other parameters. If no clearance is given, rule (19) sets one for each row.
     """
@@ -219,7 +219,7 @@ def _rows(parameter, values, ratios, fixed):
 
 
 def _run(parameters, starts, settling, workers, progress):
-    """Return the `MOTION` record of the run in each cell; outcome "absent" if a start is NaN."""
+    """Return the `MOTION` record of the run in each cell, "absent" in cells without a start."""
     asked = np.isfinite(starts[..., 0])
     records = np.zeros(asked.shape, MOTION)
     records["outcome"] = flag("outcome", "absent")
@@ -251,7 +251,7 @@ def _kinds(records, resonance):
 
 
 def _quiet_verdict(balance, orbits):
-    """Return the flag `quiet_verdict`. Beyond a fold or change of contacts the orbit is absent."""
+    """Return the flag `quiet_verdict`. Beyond a fold or a change of contacts no orbit exists."""
     size = np.abs(orbits.multiplier)
     columns = np.arange(size.shape[1])
     ended = np.isin(orbits.end_event, ["fold", "contacts_change"])

@@ -25,7 +25,7 @@ longest_wait | ball | | | longest time to the first collision, cycles
 def collisions(
     oscillator, damper, frequency, *, starts=2000, radius, seed=1995, periods=2000, tolerance=1e-9
 ):
-    """Return a dataset of first collisions: starts in the whole ball, and starts within the gap."""
+    """Return a dataset of first collisions, for starts in the whole ball and within the gap."""
     p = pack(oscillator, damper, frequency)
     shares = np.empty((2, 3))
     for row, within_gap in enumerate((False, True)):

@@ -58,7 +58,7 @@ def contact_model(
 ):
     """Return a dataset: contacts by restitution and load, and the loads of simulated motions.
 
-    Random starts at each frequency lead to the simulated motions, for each restitution in `used`.
+    The simulated motions have random starts at each frequency and each restitution in `used`.
     """
     used, frequencies = np.array(used, float), np.array(frequencies, float)
     data = contact_map(restitutions, loads) | unloaded_table(used)
@@ -82,12 +82,12 @@ def contact_model(
 
 
 def spread_loads(largest, count):
-    """Return loads from -largest to largest: even spacing to |G| = LINEAR, logarithmic beyond."""
+    """Return loads from -largest to largest, spaced evenly to |G| = LINEAR, else by logarithms."""
     return LINEAR * np.sinh(np.linspace(-1, 1, count) * np.arcsinh(largest / LINEAR))
 
 
 def contact_map(restitutions, loads):
-    """Return a dict: realised restitution (NaN without release) and verdict by rule, load and e."""
+    """Return the realised restitution (NaN without release) and a verdict, by rule, load and e."""
     shape = len(EXIT_RULES), len(loads), len(restitutions)
     realised, verdict = np.empty(shape), np.empty(shape, np.int8)
     for i, j, k in np.ndindex(shape):
@@ -116,7 +116,7 @@ def unloaded_table(restitutions):
 
 
 def extreme_motions(oscillator, damper, frequency, starts, seed, settling):
-    """Return the smallest settled motion and the largest motion, both with contacts (or None)."""
+    """Return the smallest settled and the largest motion with contacts (None if there is none)."""
     p = pack(oscillator, damper, frequency)
     states = random_states(starts, damper.clearance, damper, seed)
     motions = ensemble.settle(np.tile(p, (starts, 1)), states, settling)

@@ -43,8 +43,8 @@ SAME = 1e-4  # largest asymmetry of a symmetric orbit, divided by the clearance
 # The search for a minimum changes the ratio by the fraction STEP, at most MOST_STEPS times. Then it
 # locates the minimum; PRECISION is the error allowed in the ratio.
 STEP, MOST_STEPS, PRECISION = 0.02, 40, 1e-8
-# r(h) is the rise of the displacement at the distance h from a minimum: r ~ h^2 if the minimum is
-# smooth, r ~ h at a kink. A minimum counts as a kink if r(CLOSE/2) > KINK r(CLOSE).
+# At a smooth minimum the displacement rises with the square of the distance, at a kink linearly. A
+# minimum counts as a kink if the rise at CLOSE/2 exceeds KINK times the rise at CLOSE.
 CLOSE, KINK = 1e-3, 0.36
 ABSENT = 1e3  # displacement that the search assumes where no orbit exists
 IMPULSES = 400  # number of impulses for which the theory of straight flight is evaluated
@@ -53,7 +53,7 @@ IMPULSES = 400  # number of impulses for which the theory of straight flight is 
 def design_rules(
     oscillator, mass_ratios, restitutions, contact_stiffnesses, frequencies, *, progress=None
 ):
-    """Return a dataset of optimum clearances and of errors of rules, by damper and frequency."""
+    """Return a dataset: optimum clearances, and the errors of rules, by damper and frequency."""
     given = mass_ratios, restitutions, contact_stiffnesses, frequencies
     axes = {name: np.array(values, float) for name, values in zip(SWEPT, given, strict=True)}
     shape = tuple(map(len, axes.values()))
@@ -159,7 +159,7 @@ class QuietMotion:
 
 
 def first_harmonic(p, y) -> complex:
-    """Return the complex amplitude of the first harmonic of Z1; impacts cause errors < 1e-5."""
+    """Return the complex amplitude of the first harmonic of Z1, with an error below 1e-5."""
     start = strobe_time(p)
     times = start + np.arange(SAMPLES + 1) * 2 * np.pi / (p[FREQUENCY] * SAMPLES)
     states = states_at(p, y, start, times, POLISH_TOLERANCE)

@@ -40,18 +40,18 @@ decay_predicted | error_measure | | | predicted power of 1/N, or rate per harmon
     """
 )
 
-# MEASURES: names of the errors. The other constants predict how each error decreases with N.
-# ELASTIC, INELASTIC: exponents n of errors ~ N^-n, for contacts with e = 1 and with e < 1.
-# ANALYTIC: numbers n of errors ~ exp(-n W D N) without a damper, where D is `singularity_distance`.
+# MEASURES: names of the errors. The other constants predict how each decreases with the highest
+# harmonic N: as N^-n with n in ELASTIC if e = 1, in INELASTIC if e < 1; without a damper as
+# exp(-n W D N) with n in ANALYTIC, where D is `singularity_distance`.
 MEASURES = ("maximum", "retained", "omitted", "multiplier")
 ELASTIC = (4.0, 5.0, 3.5, 4.0)
 INELASTIC = (3.0, 3.0, 2.5, 3.0)
 ANALYTIC = (1.0, 1.0, 1.0, 2.0)
-# Search for a singularity. The unit of length is x = (f/|k3|)^(1/3), with the forcing amplitude f.
+# Constants of `singularity_distance`, with x = (f/|k3|)^(1/3) and the forcing amplitude f.
 # STARTS: number of start times in half a forcing cycle.
 # LARGE: |Z1| at which an integration towards the singularity stops, in units of x.
 # LAST_CHANGE: the search ends if the time reached changes by less; in units of 1/(x sqrt|k3|).
-# CLOSE: fraction of the estimated distance from real time that the next integration covers.
+# CLOSE: the next integration goes this fraction of the way from real time to the singularity.
 STARTS, LARGE, LAST_CHANGE, CLOSE = 12, 30.0, 1e-6, 0.95
 
 
@@ -59,8 +59,8 @@ def asymptotic_harmonic(damper, frequency) -> float:
     """Return the harmonic number N above which the predicted powers can hold; 1 without a damper.
 
     Above this N, a contact (appendix B) lasts longer than a period of harmonic N. With a dashpot, N
-    also exceeds r1/(c W). Then the jump c Z2' of the contact force contributes more to harmonic N
-    than the jump r1 Z2' of the slope of this force.
+    also exceeds r1/(c W). Above r1/(c W), harmonic N comes more from the jump c Z2' of the contact
+    force than from the jump r1 Z2' of its slope.
     """
     if damper is None:
         return 1.0
@@ -72,17 +72,17 @@ def asymptotic_harmonic(damper, frequency) -> float:
 
 
 def decay(damper, p, state) -> tuple:
-    """Return the predicted decrease of MEASURES: the kind, and powers of 1/N or rates."""
+    """Return how MEASURES should decrease: the kind, and powers of 1/N or rates per harmonic."""
     if damper is None:
         return "exponential", np.array(ANALYTIC) * p[FREQUENCY] * singularity_distance(p, state)
     return "algebraic", np.array(ELASTIC if damper.restitution == 1 else INELASTIC)
 
 
 def singularity_distance(p, state) -> float:
-    """Return the distance from real time to a free motion's nearest singularity; inf if k3 = 0.
+    """Return the distance of a free motion's nearest singularity in complex time from real time.
 
-    The motion is integrated along imaginary time. Near a singularity T*, Z1 = sqrt(-2/k3)/(T - T*).
-    Therefore T + Z1/Z1' estimates T*. Integration towards T* improves the estimate.
+    It is infinite if k3 = 0. Near a singularity T*, Z1 = sqrt(-2/k3)/(T - T*). Therefore T + Z1/Z1'
+    estimates T*. Integration in complex time towards T* improves the estimate.
     """
     frequency, (stiffness, cubic) = p[FREQUENCY], cubic_spring(p)
     if cubic == 0:
@@ -139,7 +139,7 @@ FINEST = 1e-14  # tolerance with which the exact orbit is integrated
 
 
 def ladder(highest) -> np.ndarray:
-    """Return odd numbers up to `highest` (at most 2^14): all to 15, then three per factor of 2."""
+    """Return odd numbers up to `highest` (at most 2^14): all up to 15, then three per doubling."""
     powers = np.round(2.0 ** np.arange(4, 14.01, 1 / 3))
     chosen = np.concatenate([np.arange(1, 16, 2), 2 * (powers // 2).astype(int) - 1])
     return np.unique(chosen[chosen <= highest])
@@ -148,8 +148,8 @@ def ladder(highest) -> np.ndarray:
 def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
     """Return a dataset of errors of harmonic balance for a symmetric motion, by highest harmonic.
 
-    `harmonics` are highest harmonics. Newton's method starts from the last converged solution and,
-    for each number in `cold`, once more from the solution with one harmonic.
+    Each of `harmonics` is the highest of a balance. Newton's method starts from the last converged
+    solution and, for each number in `cold`, once more from the solution with one harmonic.
     """
     harmonics = np.asarray(harmonics, int)
     balances = [Balance(oscillator, damper, frequency, int(highest)) for highest in harmonics]
@@ -186,7 +186,7 @@ def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
 
 
 def cold_status(warm, first) -> int:
-    """Solve the balance of `warm` again from coefficients `first`; return flag `cold_status`."""
+    """Solve again from the coefficients `first`, compare with `warm`; return flag `cold_status`."""
     found = solve(warm.balance, first)
     if found.status != "converged":
         return flag("cold_status", found.status)
@@ -222,7 +222,7 @@ def errors(solutions, multipliers, exact):
 
 
 def _farthest(values, references):
-    """Pair values and references at the least total distance; return the largest distance."""
+    """Pair each value with a near reference; return the largest distance in a pair."""
     if np.isnan(values).any():
         return np.nan
     away = np.abs(values[:, None] - references)
@@ -230,7 +230,7 @@ def _farthest(values, references):
 
 
 def decay_table(harmonics, data, damper, p, exact):
-    """Return a dict: predicted decrease of errors, and fitted one from `asymptotic_harmonic` on."""
+    """Return a dict: the decrease of errors, predicted and fitted above `asymptotic_harmonic`."""
     lowest = asymptotic_harmonic(damper, p[FREQUENCY])
     kind, predicted = decay(damper, p, exact.strobe_states[0])
     scale = np.log(harmonics) if kind == "algebraic" else harmonics

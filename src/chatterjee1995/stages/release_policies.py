@@ -46,11 +46,11 @@ POLICIES = ["settled", "hold", "phase", "state"]
 # Policies choose among these numbers of cycles with the damper on. Successive ratios are about 1.6.
 HOLDS = (1, 2, 3, 5, 8, 13, 21, 34)
 QUANTILES = [0.5, 0.95]  # quantiles of the cycles until the goal
-# Results of a time with the damper on. `state` is Z1, Z1' at the next strobe, `ahead` cycles later.
+# Results of a run with the damper on. `state`: Z1, Z1' at the strobe `ahead` cycles after its end.
 HELD = np.dtype(
     [("released", "?"), ("cycles", "f8"), ("impacts", "i8"), ("state", "f8", 2), ("ahead", "f8")]
 )
-# A rule of release, see `legs.hold`.
+# A rule that says when to switch the damper off, see `legs.hold`.
 RULE = np.dtype([("kind", "i8"), ("cycles", "f8"), ("phase", "i8")])
 
 
@@ -108,7 +108,7 @@ class Trials(NamedTuple):
     workers: int = 1
 
     def rules(self, trials, seed):
-        """Return a list: for each policy, the RULE with the smallest mean of cycles to the goal."""
+        """Return, for each policy, the RULE with the fewest cycles to the goal on average."""
 
         def costs(rules):
             cycles = [outcome.cycles for outcome in self.run(rules, trials, seed)]
@@ -133,7 +133,7 @@ class Trials(NamedTuple):
         reached, running = np.zeros(count, bool), np.arange(count)
         rules = np.repeat(np.array(rules, RULE), trials)
         while len(running):
-            # Columns: phase of switching on, place of loose mass, phase of release, start.
+            # Random numbers for phase of switching on, place of loose mass, release, and start.
             draws = generator.random((trials, 4))[running % trials]
             first = np.searchsorted(owner, place[running])
             number = np.searchsorted(owner, place[running], side="right") - first
@@ -168,7 +168,7 @@ class Trials(NamedTuple):
         return held
 
     def labels(self, states):
-        """Return what `label_states` returns for states at a strobe."""
+        """Return to which motion each state at a strobe leads, and after how many cycles."""
         settings = self.settling.tolerance, self.settling.limit, self.workers
         return ensemble.label_states(
             self.releases.p, states, math.pi / 2, self.releases.attractors, *settings
@@ -179,8 +179,8 @@ class Trials(NamedTuple):
 def hold_many(on, off, starts, draws, limits, rules, depth, half, tolerance, held, stop):
     """In each trial switch the damper on, call `hold`, and run to the next strobe (W T = pi/2).
 
-    `starts` (n, 2) are Z1 and Z1' at the strobe before switching on. `draws` give the phase of
-    switching on, the place of the loose mass and the phase of release. `held` receives the results.
+    `starts` (n, 2) are Z1 and Z1' at the strobe before switching on. `draws` are random numbers for
+    the phase of switching on, the place of the loose mass and the release. `held` is the output.
     """
     none, path, work, y = np.empty((0, 4)), np.empty((0, 5)), workspace(), np.empty(4)
     period, first = 2.0 * math.pi / on[FREQUENCY], strobe_time(on)
@@ -215,7 +215,7 @@ def summary(outcome):
 
 
 def quantile(values, share):
-    """Return a quantile and both ends of an approximate 95 % interval by the binomial law."""
+    """Return a quantile and both ends of its approximate 95 % confidence interval."""
     ordered, count = np.sort(np.asarray(values, float)), len(values)
     spread = QUANTILE * math.sqrt(count * share * (1 - share))
     places = count * share + np.array([0.0, -spread, spread])

@@ -147,12 +147,12 @@ def _release(case, state, wait, settling, stop=NEVER):
 
 
 def watch_runs(case, seeds, lifetime, settling, workers, progress):
-    """Switch the damper on at the resonance branch; return the runs, and a release from each run.
+    """Switch the damper on in the resonance motion; return the runs, and a release from each run.
 
     A release takes place at a random time after LEAD cycles, before an orbit captures the run and
     before `lifetime` cycles have passed. If there is no such time, the release is NaN.
     """
-    # Columns: phase of switching on, place of the loose mass, strobe before release, wait after it.
+    # Random numbers: phase of switching on, place of the loose mass, strobe before release, wait.
     draws = np.array([np.random.default_rng(seed).random(4) for seed in seeds])
     motions = np.zeros(len(draws), MOTION)
     entries = np.full(len(draws), np.array((np.nan,) * 3 + (FREE_MOTION["none"],), RELEASE))

@@ -44,7 +44,7 @@ STIFF = 1e4  # least r1 in the fit of error ~ r1^-n, which holds for short conta
 def rigid_limit(
     oscillator, damper, frequency, frequencies, stiffnesses, *, starts=16, seed=1995, settling
 ):
-    """Return a dataset of errors of rigid walls; raise ArithmeticError without a quiet motion."""
+    """Return the errors of rigid walls; raise ArithmeticError if no quiet motion is found."""
     frequencies, stiffnesses = np.array(frequencies, float), np.array(stiffnesses, float)
     quiet = _quiet(oscillator, damper, frequency, starts, seed, settling)
     compliant, rigid, own = _grids(oscillator, damper, frequency, frequencies, stiffnesses, quiet)
@@ -97,7 +97,7 @@ def _reached(followed, key):
 
 
 def _grids(oscillator, damper, frequency, frequencies, stiffnesses, quiet):
-    """Return three: grid of compliant orbits, grid of rigid orbits, rigid orbit at `frequency`."""
+    """Return grids of compliant and of rigid orbits, and the rigid orbit at `frequency`."""
 
     def compliant_at(point, guess):
         each = replace(damper, contact_stiffness=float(np.exp(point[1])))
@@ -121,7 +121,7 @@ def _grids(oscillator, damper, frequency, frequencies, stiffnesses, quiet):
 
 
 def _errors(oscillator, damper, frequencies, stiffnesses, compliant, rigid):
-    """Return a dict, by cell: errors of max |Z1| with rigid and corrected walls, and verdicts."""
+    """Return a dict: the errors of max |Z1| with rigid and corrected walls, and the verdicts."""
     shape = len(frequencies), len(stiffnesses)
     plain, mended = np.full(shape, np.nan), np.full(shape, np.nan)
     verdict = np.full(shape, flag("rigid_verdict", "neither"))
@@ -139,7 +139,7 @@ def _errors(oscillator, damper, frequencies, stiffnesses, compliant, rigid):
 
 
 def _verdict(soft, hard):
-    """Return the name of the verdict on a compliant and a rigid orbit; a missing orbit is None."""
+    """Return the name of the flag `rigid_verdict` for a compliant and a rigid orbit (or None)."""
     if soft is None or hard is None:
         return "neither" if soft is hard else "rigid_only" if soft is None else "compliant_only"
     stable = [abs(orbit.multiplier) < 1 for orbit in (soft, hard)]

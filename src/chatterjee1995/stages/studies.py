@@ -1,7 +1,7 @@
 """Studies: motions from random starts in each cell of a grid of dampers and frequencies.
 
-Cells are numbered in the order of `AXES`, the last axis fastest. A chunk is a range of numbers.
-The seed and the number of a cell determine its starts, so results do not depend on the chunks.
+Each cell has an index, counted in the order of `AXES`, the last axis fastest. A chunk is a range of
+cells. The seed and the index of a cell set its starts, so results do not depend on the chunks.
 """
 
 import math
@@ -60,7 +60,7 @@ def study_chunk(
 ):
     """Return a dataset of the motions to which random starts lead in a chunk of cells.
 
-    `cells` is a pair: the number of the first cell, and the number of the last cell plus 1.
+    `cells` is a pair: the index of the first cell, and the index of the last cell plus 1.
     """
     axes = {name: np.asarray(axes[name], float) for name in AXES}
     shape, (first, last) = [len(values) for values in axes.values()], cells
@@ -71,7 +71,7 @@ def study_chunk(
         damper = Damper(contact_stiffness=contact_stiffness, **values)
         return pack(oscillator, damper, frequency), damper
 
-    # Before hours of work, check the ends of the sorted axes: values out of range would be there.
+    # Check the ends of the sorted axes before hours of work. A value out of range would be there.
     for end in (0, -1):
         random_states(0, radius, system([end] * len(AXES))[1], seed)
     warn_if_narrow(oscillator, axes["frequency"], radius)

@@ -50,8 +50,8 @@ def subharmonic_suppression(
 ):
     """Return a dataset of motions with the damper in the range of W of the free subharmonic.
 
-    If the free subharmonic is found, `frequencies` is replaced by equally many frequencies over
-    its range and margins. Within the range, half of the starts lie on the free subharmonic.
+    If the free subharmonic is found, as many frequencies over its range and two margins replace
+    `frequencies`. Within the range, half of the starts lie on the free subharmonic.
     """
     if not any(getattr(oscillator, name) for name in NONLINEAR):
         raise ValueError(
@@ -94,7 +94,7 @@ def _switch_half(oscillator, parameters, free, states, seed):
 
 
 def switched_on(oscillator, p, state, loose, generator):
-    """Switch the damper on at random times; return states when W T is next a multiple of 2 pi.
+    """Switch the damper on at random times; return the states at the next multiple of 2 pi in W T.
 
     The last two columns of `loose` (m, 4) give Z2 and Z2'. In every second row Z2' is set to 0.
     """
@@ -130,7 +130,7 @@ def is_subharmonic(data):
 
 
 def branch_ends(data, branch, grid, rows):
-    """Return both ends of a branch of a `sweep`; for an end not located, the last frequency."""
+    """Return both ends of a branch of a `sweep`; where not located, its last frequency."""
     ends = grid[[min(rows), max(rows)]]
     for side, (row, step, turn) in enumerate(((min(rows), -1, "down"), (max(rows), 1, "up"))):
         if not 0 <= row + step < len(grid):
@@ -171,7 +171,7 @@ class FreeSubharmonic(NamedTuple):
 def free_subharmonic(
     oscillator, first, last, *, starts=96, radius=None, seed=1995, settling, workers=1
 ) -> FreeSubharmonic:
-    """Return the branch of free symmetric motions of period 3 that has the most points."""
+    """Return the longest branch of free symmetric motions of period 3."""
     frequencies = np.linspace(first, last, SEARCHED)
     parameters = np.array([pack(oscillator, None, value) for value in frequencies])
     systems = [(None, value) for value in frequencies]

@@ -130,7 +130,7 @@ class FixedStep(Integrator):
         return np.abs(ends[:, 3]), abs(there[0, 3])
 
 
-# Last argument of FixedStep: largest h omega for which steps h keep x'' = -omega^2 x bounded.
+# The last argument of FixedStep is `stability_limit`, which `Integrator` explains.
 BOTH = "stable_steps", "missed_contacts"
 INTEGRATORS = (
     FixedStep(VERLET, "verlet", "velocity Verlet", 1, BOTH[:1], 2.0),

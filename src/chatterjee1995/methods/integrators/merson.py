@@ -1,4 +1,4 @@
-"""Runge-Kutta-Merson, the paper's method. Estimated error of a step: <= tolerance (1 + |y|)."""
+"""The paper's method, Runge-Kutta-Merson. A step may have the error tolerance * (1 + |y|)."""
 
 import math
 
@@ -12,8 +12,8 @@ from impact_damper.model.packed import CLEARANCE, FREQUENCY
 
 # Floating-point operations of a step: five evaluations of the rate, and their combinations.
 STEP_OPERATIONS = 366
-# A run fails if it diverges or needs a step below SHORTEST. Largest numbers of steps: MOST_STEPS in
-# a call of `advance_merson`, MOST_ENDS in a forcing cycle, MOST_FLIGHT_ENDS in a flight.
+# A run fails if it diverges, needs a step below SHORTEST, or needs more steps than MOST_STEPS in a
+# call of `advance_merson`, MOST_ENDS in a forcing cycle, or MOST_FLIGHT_ENDS in a flight.
 SHORTEST = 1e-12
 MOST_STEPS, MOST_ENDS, MOST_FLIGHT_ENDS = 10**6, 400_000, 10**5
 FIRST = 1e-3  # length of the first step, divided by the forcing period or, in `flight`, by `end`
@@ -21,7 +21,7 @@ FIRST = 1e-3  # length of the first step, divided by the forcing period or, in `
 
 @kernel
 def estimated_step(p, side, by_position, t, h, y, tolerance):
-    """Return the state after a step and error/allowed error. If `by_position`, Z2 sets the wall."""
+    """Return the state after a step, and its estimated error divided by the allowed error."""
     k1 = rate(p, wall_at(p, y[2]) if by_position else side, t, y)
     m = moved(y, h / 3.0, k1)
     k2 = rate(p, wall_at(p, m[2]) if by_position else side, t + h / 3.0, m)
@@ -41,7 +41,7 @@ def estimated_step(p, side, by_position, t, h, y, tolerance):
 
 @kernel
 def located(p, side, t, h, y, tolerance):
-    """Return length (<= h), final state and number of tries of the step that ends at |Z2| = d0."""
+    """Shorten a step h to end at |Z2| = d0; return its length, final state and number of tries."""
     low, high = 0.5 * h, h
     state, _ = estimated_step(p, side, False, t, high, y, tolerance)
     beyond = ahead(p, side, state[2])
@@ -75,10 +75,10 @@ def located(p, side, t, h, y, tolerance):
 
 @kernel
 def advance_merson(p, y, side, t, end, h, tolerance, locate, ends):
-    """Integrate y in place from t to end; h: first step. Write time and state of steps to `ends`.
+    """Integrate y in place from t to end, first with a step h. Write step ends to `ends` (m, 5).
 
     Return four numbers: the wall in contact (always `side` without `locate`), the length of the
-    next step, the number of accepted steps (-1 if the run failed), the number of computed steps.
+    next step, the number of accepted steps (-1 if the run failed), and the number of all steps.
     """
     state = (y[0], y[1], y[2], y[3])
     steps, tries = 0, 0

@@ -1,4 +1,4 @@
-"""SciPy's integrators with a compiled rate. Steps pass over contacts, or events locate contacts."""
+"""SciPy's integrators. SciPy's events locate contacts, or steps simply run across contacts."""
 
 import math
 
@@ -17,7 +17,7 @@ UNLIMITED = 2**62  # limit of evaluations of the rate, which no run reaches
 
 @kernel
 def derivative(t, y, p, side, left):
-    """Return the rate; raise OverflowError after the number of evaluations allowed by `left`."""
+    """Return the rate. `left` counts the evaluations left; OverflowError is raised if none is."""
     left[0] -= 1
     if left[0] < 0:
         raise OverflowError("too many evaluations")
@@ -41,7 +41,7 @@ def solved(method, p, y, span, side, tolerance, left, **options):
 
 
 def parts(method, p, start, t, end, tolerance, locate, left):
-    """Yield results of `solve_ivp`: one or, if `locate`, one for each flight and contact."""
+    """Yield the results of `solve_ivp`: if `locate`, one per flight and contact, else only one."""
     y, side = np.array(start), side_of(p, start) if locate else BY_POSITION
     status = 1
     while status == 1:
@@ -93,7 +93,7 @@ class SciPy(Integrator):
         return (np.abs(result.y[2]), abs(result.sol(time)[2])) if result.success else None
 
 
-# `operations` of an evaluation besides the rate: 2 (multiply, add) for a term, in 4 components.
+# `operations` of an evaluation besides the rate: 2 (*, +) for each term, times 4 components.
 # DOP853: about 6 terms for the next state, and 4 terms for result and error.
 # LSODA: 21 terms for about 6 derivatives, and 2 * 4^2 operations that solve four linear equations.
 # `factorising`: 2/3 * 4^3 operations of an LU factorisation, in LSODA only.

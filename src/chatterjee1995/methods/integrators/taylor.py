@@ -1,4 +1,4 @@
-"""The event-driven Taylor series of the library, for any orders of the series."""
+"""The library's own integrator, Taylor series with steps that end at contacts, for any orders."""
 
 import numpy as np
 from numpy.polynomial.polynomial import polyder, polyval
@@ -33,7 +33,7 @@ PARTS = 8  # number of parts of a step; `turning_points` finds at most one zero 
 
 @kernel
 def take_steps(steps, p, y, side, t, end, tolerance, flight_order, contact_order, rows):
-    """Write steps from t towards `end` to `rows`, update y; return row count, last time, wall."""
+    """Integrate y towards `end`, with a row for each step; return row count, last time, wall."""
     work = aligned(steps[3])
     a, count = pointer(work), 0
     write_trajectory(p, y, side, tolerance, a)
@@ -56,14 +56,14 @@ def take_steps(steps, p, y, side, t, end, tolerance, flight_order, contact_order
 
 
 def steps_of(orders):
-    """Return addresses of flight step, contact step, `constant_series`; and the workspace size."""
+    """Return the addresses of three compiled functions for `take_steps`, and a workspace size."""
     module = instance(1, *orders)
     called = module.flight_step, module.contact_step, module.constant_series
     return np.array([*(compiled(each).address for each in called), module.SIZE])
 
 
 def all_steps(p, start, t, periods, tolerance, orders=ORDERS):
-    """Return a row for each step of a run from `start` at t; and the last state, NaN on failure."""
+    """Run from `start` at t; return a row for each step, and the last state (NaN if it fails)."""
     y, side = start.copy(), side_of(p, start)
     end, parts = t + periods * 2 * np.pi / p[FREQUENCY], []
     while t < end:
@@ -93,7 +93,7 @@ def taylor(p, start, t, periods, tolerance, orders=ORDERS):
 
 
 def turning_points(rows, series):
-    """Return two arrays over turning points of Z1: the step, and the time since the step began."""
+    """For each turning point of Z1 return the step's index, and the time since the step began."""
     slopes = polyder(series)
     edges = np.linspace(0, rows[:, 1], PARTS + 1)
     speeds = np.array([polyval(t, slopes, tensor=False) for t in edges])
@@ -116,7 +116,7 @@ def work_of_steps(counts, orders=ORDERS, tangents=False):
 
 
 def step_work(kind, orders=ORDERS, tangents=False):
-    """Return the number of operations of a step, within 1 % of a count in the generated source."""
+    """Return the operations of a step, by a formula that fits the generated source within 1 %."""
     n = orders[kind == CONTACT]
     if kind == CONTACT:
         return 1.5 * n**2 + 40 * n + 405 + tangents * (4.5 * n**2 + 73 * n)
