@@ -1,9 +1,9 @@
 """Tuned absorbers: the tuning of an absorber to a machine, and the response in closed form.
 
 The machine has mass m1, stiffness k, damping c. The absorber has mass m, stiffness ka, damping ca.
-With the angular frequency w, let K = k + i c w - m1 w^2, L = ka + i ca w and q = L/(L - m w^2).
-The absorber's acceleration is q times the machine's acceleration. A force of amplitude F moves the
-machine by F/|K - m w^2 q|. A moving base also accelerates m: F is multiplied by |1 + q m/m1|.
+w is the angular frequency. Let K = k + i c w - m1 w^2 and L = ka + i ca w. The absorber's
+acceleration is q = L/(L - m w^2) times the machine's acceleration. A force of amplitude F moves
+the machine by F/|K - m w^2 q|. On a moving base F is multiplied by |1 + q m/m1|.
 """
 
 import math
@@ -18,13 +18,13 @@ from impact_damper.design.task import labelled
 from impact_damper.model.machine import TunedAbsorber
 from impact_damper.theory.roots import polynomial_roots
 
-# POINTS: number of frequencies near the resonance, and number of frequencies over a given band.
-# REACH: largest distance of a frequency from the resonance, in widths of the resonance.
+# An absorber is tuned at POINTS frequencies near the resonance. A given band adds POINTS more.
+# REACH: largest distance of a frequency from the resonance, in widths of the resonance peak.
 POINTS, REACH = 1001, 8.0
-# TUNINGS bounds log(absorber frequency/machine frequency). DAMPINGS bounds log(damping ratio).
+# Bounds of logarithms. TUNINGS: absorber frequency/machine frequency. DAMPINGS: damping ratio.
 TUNINGS, DAMPINGS, TOLERANCE, SEED = (-1.5, 1.0), (-7.0, 0.7), 1e-7, 1995
 COMPETITORS = ("bare", "tuned", "own")
-# Factors of the machine's excitation, from 1/4 to 4.
+# Factors by which the machine's excitation is multiplied, from 1/4 to 4.
 SHARES = tuple(2.0 ** (step / 2) for step in range(-4, 5))
 DETUNINGS = (-0.1, 0.0, 0.1)
 
@@ -32,11 +32,11 @@ DETUNINGS = (-0.1, 0.0, 0.1)
 def absorber_responses(
     machine, mass, frequencies, force_shares=SHARES, *, detunings=DETUNINGS, band=None, own=None
 ):
-    """Return a dataset of displacements (mm): no absorber, a tuned absorber, the absorber `own`.
+    """Return a dataset of displacements (mm) without absorber, with a tuned absorber, with `own`.
 
-    The tuned absorber has the mass `mass` (kg). It is tuned over the range `band` (Hz).
-    `force_shares` are factors of the excitation. `detunings` are relative changes of the absorbers'
-    stiffness. If the machine has no linear stiffness, values with a tuned absorber are NaN.
+    The tuned absorber has the mass `mass` (kg) and is tuned over the range `band` (Hz). The
+    excitation is multiplied by each of `force_shares`. `detunings` are relative changes of the
+    absorber's stiffness. A machine without linear stiffness has NaN for the tuned absorber.
     """
     names = COMPETITORS[: 2 if own is None else 3]
     sizes = np.full((len(names), len(detunings), len(frequencies), len(force_shares)), np.nan)
@@ -67,7 +67,7 @@ def absorber_responses(
 
 @cache
 def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
-    """Minimise the largest displacement over `band` without cubic spring. Return the absorber."""
+    """Return the absorber with the least peak displacement over `band`. Ignore a cubic spring."""
     ratio, linear = mass / machine.mass, replace(machine, cubic_stiffness=0.0)
     frequencies = _frequencies(linear, ratio, band)
 
@@ -86,7 +86,7 @@ def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
 
 
 def _frequencies(machine, ratio, band):
-    """Return frequencies (Hz) for the tuning: over `band`, or near the resonance if None."""
+    """Return frequencies (Hz) for the tuning: over `band` or, if it is None, near resonance."""
     critical = 2 * math.sqrt(machine.linear_stiffness * machine.mass)
     width = min(math.sqrt(ratio) + machine.viscous_damping / critical, 1.0)
     ends = 1 + REACH * width * np.array([-1.0, 1.0])
@@ -100,9 +100,9 @@ def _frequencies(machine, ratio, band):
 def response(machine, absorber, frequencies, force_shares=(1.0,)) -> np.ndarray:
     """Return largest amplitudes (m) at frequencies (Hz), shape (frequencies, force shares).
 
-    Amplitudes are exact without a cubic spring, and by harmonic balance with a cubic spring. Left
-    out are solutions between two folds, and solutions at which a softening spring has no force or
-    pulls outwards. Without any solution the amplitude is infinite. Other instabilities are missed.
+    Amplitudes are exact without a cubic spring, and by harmonic balance with a cubic spring. If
+    there are three solutions, the middle one is unstable and left out. Solutions in which a
+    softening spring pulls outwards are left out too. With no solution left, the result is infinite.
     """
     oscillator = machine.oscillator()
     pairs = zip(*_dynamics(machine, absorber, np.asarray(frequencies)), strict=True)
@@ -114,7 +114,7 @@ def response(machine, absorber, frequencies, force_shares=(1.0,)) -> np.ndarray:
 
 
 def _dynamics(machine, absorber, frequencies):
-    """Return two dimensionless arrays over frequencies (Hz): stiffness K - m w^2 q, force."""
+    """Return dimensionless arrays over frequencies (Hz): dynamic stiffness K - m w^2 q, force."""
     scales, oscillator = machine.scales, machine.oscillator()
     w = scales.from_si(frequencies, "frequency")
     force = oscillator.force + oscillator.unbalance * w**2

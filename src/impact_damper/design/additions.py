@@ -1,4 +1,4 @@
-"""Additions to the decision of a design: functions of the task and of the decision's dataset."""
+"""Additions to a design: datasets computed after the decision whether to build the damper."""
 
 from dataclasses import replace
 
@@ -21,14 +21,14 @@ from impact_damper.motions.strobe_map import strobe_time
 
 # Number of evenly spaced frequencies of `force_map`. `Task.few` adds further frequencies.
 FREQUENCIES = 5
-# Loose mass of the heavier damper, divided by the loose mass of the task.
+# Loose mass of the heavier damper, divided by the loose mass of the damper in the task.
 HEAVIER = 2.0
 # Number of cycles in which the contact force is measured if the motion is not periodic.
 WATCHED = 100
 
 
 def force_map(task, decision, progress=None) -> xr.Dataset:
-    """Return promised displacements over frequency and excitation, for nominal values."""
+    """Return bounds of the displacement over frequency and excitation. Other values are nominal."""
     critical = float(decision["promised_frequency"])
     frequencies, shares = task.few(FREQUENCIES, critical), np.array(SHARES)
     sets = np.tile(NOMINAL, (len(shares), 1))
@@ -44,8 +44,8 @@ def force_map(task, decision, progress=None) -> xr.Dataset:
 def other_masses(task, decision, progress=None) -> xr.Dataset:
     """Return a dataset that compares the damper of the task with a heavier damper.
 
-    One round of the search finds the heavier damper's gap. The dataset is empty if the decision
-    is "build" and no limit is missed, or if the heavier loose mass exceeds the machine's mass.
+    One round of the search finds the heavier damper's gap. The dataset is empty if the damper of
+    the task is good enough, or if the heavier loose mass exceeds the machine's mass.
     """
     fails = named(decision, "decision") == "do_not_build"
     fails |= named(decision, "limit_status") == "missed"
@@ -67,7 +67,7 @@ def other_masses(task, decision, progress=None) -> xr.Dataset:
 
 
 def _force(task, gap, frequency):
-    """Return the largest motion's contact force (N) at a gap (mm), NaN if the motion escapes."""
+    """Return the contact force (N) in the largest motion at a gap (mm), or NaN if it escapes."""
     cell = Cell(1e-3 * gap, frequency)
     motions = run(task, [cell], task.effort.starts, ("masses",))
     k, p = int(np.argmax(motions.peaks[0])), task.packed(*cell)
@@ -79,7 +79,7 @@ def _force(task, gap, frequency):
 
 
 def competitors(task, decision, progress=None) -> xr.Dataset:
-    """Return a dataset of responses: no absorber, a tuned absorber, the absorber of the task."""
+    """Return responses without absorber, with a tuned absorber, and with the task's absorber."""
     band = task.absorber_band
     found = absorber_responses(task.machine, task.mass, task.grid, band=band, own=task.absorber)
     return found.assign_coords(labelled({}, frequency=task.grid).coords)

@@ -24,10 +24,10 @@ KEPT = (SETTLED, NON_COLLIDING, AT_REST)
 # Purposes for which starts are drawn. The seed of the starts depends on the purpose. The search for
 # a gap and the confirmation of the gap therefore use different starts.
 STREAMS = "search compared confirmed orbit forces masses repeated shocks searched_again".split()
-# Largest numbers in one step. DRAWN: cells whose starts a thread draws. FOLLOWED: motions that a
-# thread runs. TOGETHER: regimes that are run before the bounds of all cells are compared again.
+# A thread draws the starts of DRAWN cells at a time, and runs FOLLOWED motions at a time.
+# At most TOGETHER regimes are run before the bounds of all cells are compared again.
 DRAWN, FOLLOWED, TOGETHER = 4, 64, 8
-# Largest ratio of a record in a regime to the next smaller record in this regime.
+# In a regime each record is at most this factor above the next smaller record.
 APART = 1.3
 # A peak is the largest displacement of a motion in BLOCK cycles. `return_level` extrapolates the
 # TAIL largest peaks of a regime to the displacement that is exceeded once in HORIZON cycles.
@@ -35,13 +35,13 @@ BLOCK, TAIL, HORIZON = 50, 50, 100_000
 # Numbers of cycles, summed over the motions of a regime. POOLED: least number for extrapolation.
 # MOST_POOLED: number after which the regime is not run further.
 POOLED, MOST_POOLED = 25_000, 200_000
-# Fraction by which a record is assumed to grow in each doubling of the cycles up to POOLED.
+# A record is raised by this fraction for each doubling of the cycles that is missing to POOLED.
 MISSING = 0.03
-# QUARTERS: number of parts of a run. A regime is a torus if the largest displacements of the parts
-# differ by at most a fraction of the record: ROUGH in a comparison of gaps, otherwise STEADY.
+# A run is divided into QUARTERS parts. A regime counts as a torus if the largest displacements in
+# these parts differ by at most the fraction STEADY of the record (ROUGH when gaps are compared).
 # SLACK: largest fraction by which a settled motion exceeds the displacement of its orbit.
 QUARTERS, STEADY, ROUGH, SLACK = 4, 0.002, 0.01, 0.001
-# Number of cycles in which the motions of a regime may settle before the regime is run further.
+# Before a regime is run further, its motions get this number of cycles to settle.
 CHECKED = 100
 
 
@@ -56,7 +56,7 @@ class Cell(NamedTuple):
 def draw_starts(task, cells, count, stream) -> np.ndarray:
     """Return `count` random starts for each cell, shape (cells, count, 4).
 
-    The tuple `stream` begins with a name in STREAMS. If a name is used repeatedly, numbers follow.
+    The tuple `stream` determines the seed: a name in STREAMS, and numbers if a name is used again.
     """
     states, stop = np.empty((len(cells), count, 4)), np.zeros(1, bool)
     name, *turn = stream
@@ -91,7 +91,7 @@ class Motions:
         Largest displacement in each quarter of the `Settling.watched` cycles after the first run.
         The entries of a settled motion are 0.
     blocks : array of arrays, shape (m,)
-        Largest displacement in each block of BLOCK cycles, shape (n, blocks); NaN without a run.
+        Largest displacement in each block of BLOCK cycles, shape (n, blocks); NaN if not run.
     """
 
     task: object
@@ -104,7 +104,7 @@ class Motions:
     blocks: np.ndarray
 
     def regimes(self, k) -> list:
-        """Return the regimes of cell k. A regime is an array of the indices of its motions."""
+        """Return the regimes of cell k, each as an array with the indices of its motions."""
         places = np.flatnonzero(~self.settled[k])
         order = places[np.argsort(self.peaks[k, places], kind="stable")]
         sizes = self.peaks[k, order]
@@ -112,10 +112,9 @@ class Motions:
         return [regime for regime in found if len(regime)]
 
     def measured(self, k, regime, rough=False) -> tuple:
-        """Return a regime's displacement, whether the displacement is known, whether a test passed.
+        """Return a tuple: displacement of a regime, True if known, True if the test below passed.
 
-        The test is described below. `rough` is for comparing gaps: then the displacement depends
-        less on the number of motions in the regime, and is no bound.
+        `rough` is for comparing gaps. The displacement is then an estimate, and no bound.
         """
         record, peaks = self.peaks[k, regime].max(), self.blocks[k][regime]
         peaks = peaks[:, np.isfinite(peaks).any(axis=0)]
@@ -139,14 +138,14 @@ class Motions:
         return return_level(peaks), tested or pooled >= MOST_POOLED, tested
 
     def numbers(self, k, rough=False) -> tuple:
-        """Return arrays over the starts of cell k: displacements, True for known displacements."""
+        """Return arrays over the starts of cell k: displacements, and True where known."""
         sizes, known = (1 + SLACK) * self.peaks[k], self.settled[k].copy()
         for regime in self.regimes(k):
             sizes[regime], known[regime], _ = self.measured(k, regime, rough)
         return sizes, known
 
     def bounds(self, rank) -> tuple:
-        """Return for all cells: `rank`-th largest displacement, index of its start, 1 if known."""
+        """Return for each cell: `rank`-th largest displacement, index of its start, 1 if known."""
         found = np.empty(len(self.peaks)), *np.empty((2, len(self.peaks)), int)
         for k in range(len(self.peaks)):
             sizes, known = self.numbers(k)
@@ -155,14 +154,15 @@ class Motions:
         return found
 
     def grows(self, k) -> bool:
-        """Return whether a regime of cell k fails the test in `measured` at MOST_POOLED cycles."""
+        """Return whether a regime of cell k fails the test in `measured` at the end of its run."""
         results = [self.measured(k, regime) for regime in self.regimes(k)]
         return any(known and not tested for _, known, tested in results)
 
     def largest(self, rank, least=0.0, left_out=()) -> np.ndarray:
-        """Run motions until the largest bound is known or at most `least`. Return all bounds.
+        """Run motions until the largest bound of all cells is known. Return the bounds.
 
-        The bound of a cell is its `rank`-th largest displacement. Cells in `left_out` are not run.
+        The bound of a cell is its `rank`-th largest displacement. If the largest bound is at most
+        `least`, it need not be known. Cells in `left_out` are not run.
         """
         while True:
             bounds, places, known = self.bounds(rank)
@@ -176,9 +176,9 @@ class Motions:
                 self.follow(k, next(each for each in self.regimes(k) if places[k] in each))
 
     def follow(self, k, regime) -> None:
-        """Double the cycles of a regime of cell k. The first time, run POOLED/2 cycles or more.
+        """Run a regime of cell k until its number of cycles has doubled.
 
-        The first time, drop earlier records, because these records may include transients.
+        The first call runs POOLED/2 cycles or more, and drops records that may include transients.
         """
         loud = regime[~self._settle(k, regime)]
         if not len(loud):
@@ -221,7 +221,7 @@ class Motions:
 
 
 def run(task, cells, count, stream, progress=None) -> Motions:
-    """Run motions from `count` random starts at each cell (first run). Return the motions."""
+    """Return motions from `count` random starts in each cell, after their first run."""
     starts = draw_starts(task, cells, count, stream)
     parameters = np.array([task.packed(*cell) for cell in cells])
     rows, effort = np.repeat(parameters, count, axis=0), task.effort
@@ -252,10 +252,10 @@ def run(task, cells, count, stream, progress=None) -> Motions:
 
 
 def peaks_of_blocks(task, parameters, states, number, cycles) -> np.ndarray:
-    """Run motions. Return the largest displacement in each block, shape (motions, number).
+    """Return the largest displacement of each motion in each block, shape (motions, number).
 
-    There are `number` blocks of `cycles` forcing cycles. Each block begins at a strobe. The final
-    states replace `states`. After an escape, displacements are infinite.
+    A motion is run for `number` blocks of `cycles` forcing cycles. Each block begins at a strobe.
+    The final states are written into `states`. After an escape, displacements are infinite.
     """
     peaks = np.zeros((number, len(states)))
 
@@ -270,7 +270,7 @@ def peaks_of_blocks(task, parameters, states, number, cycles) -> np.ndarray:
 
 
 def return_level(peaks) -> float:
-    """Return the displacement exceeded once in HORIZON cycles, at least the largest peak.
+    """Return the displacement exceeded once in HORIZON cycles, or the largest peak if larger.
 
     Excesses of peaks over a high level are assumed to be distributed exponentially (S. Coles, An
     Introduction to Statistical Modeling of Extreme Values, 2001, chapter 4). A bounded motion has

@@ -1,4 +1,4 @@
-"""Largest motion with the chosen gap at each frequency, and its costs (impacts, forces, losses)."""
+"""The largest motion at each frequency with the chosen gap: impacts, forces, losses."""
 
 from dataclasses import replace
 
@@ -42,7 +42,7 @@ def response_and_costs(task, decision, progress=None) -> xr.Dataset:
     searched |= {"workers": effort.workers, "progress": progress}
     damper = task.damper(1e-3 * float(decision["design_gap"]))
     motions = frequency_response(task.machine, damper, task.grid, **searched)
-    # All steps must have exactly equal frequencies, because their datasets are merged.
+    # Datasets of several steps are merged, so their frequencies must be exactly equal.
     motions = motions.assign_coords(frequency=shown_variable("frequency", task.grid))
     return motions.merge(reached_motions(task, decision, motions))
 
@@ -50,9 +50,9 @@ def response_and_costs(task, decision, progress=None) -> xr.Dataset:
 def reached_motions(task, choice, response) -> xr.Dataset:
     """Return a dataset of the largest motion reached at each frequency, with its costs.
 
-    A motion is reached if a random start leads to it. A motion with contacts is also reached if
-    only a start placed by the program leads to it. `untouched_displacement` is the displacement of
-    the largest motion that has no contacts and to which only placed starts lead.
+    A motion is reached if a random start leads to it. A motion with contacts is also reached if a
+    start placed by the program leads to it. `untouched_displacement` is the largest displacement
+    among motions without contacts that only placed starts lead to.
     """
     sizes = response["maximum_displacement"].values
     placed = response["origin"].values == flag("origin", "placed_start")
@@ -74,7 +74,7 @@ def reached_motions(task, choice, response) -> xr.Dataset:
 
 
 def _measured(task, case, size, state, periods):
-    """Return a dictionary of the dataset's variables, with the values of one motion.
+    """Return a dictionary: names of variables, and their values for one motion.
 
     `size` (mm) is the largest displacement in earlier runs, infinite if the motion escaped. `state`
     is the state of the motion at a strobe (a fixed phase of the forcing).

@@ -14,22 +14,22 @@ from impact_damper.design.promise import Promise, factor_sets
 from impact_damper.design.search import score, search, search_around
 from impact_damper.design.task import NOMINAL, NUMERICAL, SIDES, VARIED, Task, labelled
 
-# ROUNDS: largest number of gaps that are tried. The search is confirmed if a gap is chosen twice,
-# or if the least promise is at most CONFIRMED times the displacement at the gap chosen last.
+# At most ROUNDS gaps are tried. The search is confirmed if it chooses a gap twice, or if the least
+# promised displacement is at most CONFIRMED x the displacement at the gap that it chose last.
 CONFIRMED, ROUNDS = 1.05, 4
-# If a promise exceeds SURPRISE times the displacement of the search, nearby gaps are run again.
+# Nearby gaps are run again if the promised displacement exceeds SURPRISE x the search's result.
 SURPRISE = 1.1
 
 
 class Tried(NamedTuple):
-    """A gap (mm) that was tried, and the `Promise` of this gap (bounds of the displacement)."""
+    """A gap (mm) that was tried, and bounds of the displacement at this gap."""
 
     gap: float
     promise: Promise
 
     @property
     def harmful(self) -> np.ndarray:
-        """Nominal set of factors, and worst set with the factor of the gap changed to 1."""
+        """Nominal factors, and worst factors with the gap's factor changed to 1."""
         worst = self.promise.sets[self.promise.worst[0]].copy()
         worst[0] = 1
         return np.unique([NOMINAL, worst], axis=0)
@@ -63,7 +63,7 @@ def find_gap(task: Task, progress=None) -> xr.Dataset:
 
 
 def evaluate_gap(task: Task, progress=None) -> xr.Dataset:
-    """Return the dataset of the decision on the gap of the task."""
+    """Return the dataset of the decision on the given gap, `task.gap`."""
     gap = 1e3 * task.gap
     found = confirm(task, gap, 0, factor_sets(task, gap), progress)
     curve = search_around(task, gap, found.harmful, progress)
@@ -71,13 +71,13 @@ def evaluate_gap(task: Task, progress=None) -> xr.Dataset:
 
 
 def confirm(task, gap, turn, sets, progress=None) -> Tried:
-    """Return a gap (mm) and its promise, computed from new starts."""
+    """Return a gap (mm) and bounds of its displacement, computed from new starts."""
     stream = "confirmed", turn
     return Tried(gap, Promise(task, 1e-3 * gap, sets, stream, progress=progress).refined())
 
 
 def learn(task, tried, turn, curve, progress=None) -> None:
-    """Put a promise into the curve. Run nearby gaps again if the promise is far above the curve."""
+    """Correct the search's curve of displacements by the bounds that new starts gave at a gap."""
     gap, promise = tried.gap, tried.promise
     sizes, factors = promise.by_set(), promise.sets[:, 0]
     expected = curve.within(*np.array(task.gap_ends(gap))[:, None])[0]
@@ -89,7 +89,7 @@ def learn(task, tried, turn, curve, progress=None) -> None:
         k = int(np.argmax(np.where(factors == factor, sizes, -np.inf)))
         curve.put([gap * factor], [sizes[k]], [worst[k]], replace=True)
     if promise.size > SURPRISE * expected:
-        # The search missed a motion between two frequencies, or a motion that few starts reach.
+        # The search missed a large motion, so nearby gaps are run again.
         reach = SURPRISE * factors.max()
         near = curve.gaps[(curve.gaps > gap / reach) & (curve.gaps < gap * reach)]
         given = np.unique(worst), starts_needed(task.share), ("compared", 100 + turn), progress
@@ -175,7 +175,7 @@ def conclude(task, found, curve, status) -> xr.Dataset:
 def rivals(task) -> xr.Dataset:
     """Return largest displacements with three absorbers: tuned, detuned, and given in the task.
 
-    They are NaN if the method fails. Then the addition `competitors` fails too, and is flagged.
+    If the computation fails, they are NaN, and the addition `competitors` is flagged as failed.
     """
     names = ("tuned_displacement", "detuned_displacement", "own_absorber_displacement")
     values = dict.fromkeys(names, np.nan)

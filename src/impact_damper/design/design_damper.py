@@ -180,7 +180,7 @@ def evaluate_damper(
 
 
 def answer(task, decide, title, folder, progress) -> xr.Dataset:
-    """Return the dataset of a task: the decision, and the additions to the decision.
+    """Return the dataset of a task: the decision by the function `decide`, and its additions.
 
     An addition that fails with a numerical error is left out, and flagged in `addition_status`.
     """
@@ -222,7 +222,7 @@ class Steps:
         self.made = json.dumps(inputs | {"sources": _sources()}, sort_keys=True)
 
     def step(self, name, compute, *given):
-        """Return the dataset of `compute`, from a file if one was made with equal inputs."""
+        """Return the result of `compute(*given)`, from a file if its inputs are unchanged."""
         title = name.capitalize() if self.progress else None
         if self.folder is None:
             return compute(*given, progress=title)

@@ -48,7 +48,7 @@ def migration(
     releases, `migration_bound` (a time). The fraction `share` of all releases succeeds within this
     time, with 95 % confidence. Each gap has a `sure_frequency`. From this frequency on, the bound
     is finite wherever there are two free motions. `migration_gap` is the gap with the lowest
-    `sure_frequency`. If there are two free motions at no frequency, ValueError is raised.
+    `sure_frequency`. ValueError is raised if each frequency has only one free motion.
     """
     effort = Effort() if effort is None else effort
     task = Task(
@@ -98,7 +98,7 @@ def _case(task, gap, frequency):
 
 
 def release_time(case, seed, longest_hold, settling, stop) -> float:
-    """Return how many cycles after switching on the small motion is reached; infinity if never."""
+    """Return the cycles from switching the damper on to the small motion; infinity if never."""
     draws = np.random.default_rng(seed).random((1, 3))
     _, log = control(case, draws, longest_hold, settling, 0, None, stop)
     reached = log["destination"][0] == FREE_MOTION["non_resonance"]

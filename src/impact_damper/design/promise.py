@@ -1,4 +1,4 @@
-"""The promised displacement of a gap: a bound over the band and within all tolerances."""
+"""Promised displacement: a bound over band and tolerances (see docs/explanation/promise.md)."""
 
 import itertools
 
@@ -11,17 +11,17 @@ from impact_damper.design.task import VARIED
 
 # Largest number of corners. In a corner each value is at one end of its tolerance.
 CORNERS = 8
-# The peak of a set of factors is its largest bound over the frequency.
-# NEAR, SPLITS: at most SPLITS rounds add frequencies beside peaks of at least NEAR x largest peak.
-# PEAK: a finite peak is known if the last round raised the peak by at most this fraction, and if a
-# parabola through the peak and its two neighbours rises above the peak by at most this fraction.
+# A set of factors has a bound at each of its frequencies. The peak of the set is the largest bound.
+# Up to SPLITS rounds add frequencies beside peaks that are at least NEAR x the largest peak.
+# A finite peak is known if the last round raised it by at most the fraction PEAK, and if a parabola
+# through the peak and its two neighbours is higher than the peak by at most this fraction.
 NEAR, PEAK, SPLITS = 0.9, 0.01, 4
 # Sets other than the nominal set are first run at half of the frequencies, but at least FEWEST.
 FEWEST = 9
-# The fraction 2 (1 - share) of the motions of a cell exceeds the cell's usual displacement.
-# RARE: a cell has rare motions if its bound exceeds RARE times the largest usual displacement.
-# MORE, SOME: cells with rare motions are run again: MORE x as many starts, SOME cells at a time.
-# KEPT: no more cells are run if a new bound exceeds KEPT times the least old bound of these cells.
+# The fraction 2 (1 - share) of the motions of a cell exceeds the cell's usual displacement. A cell
+# has rare motions if its bound exceeds RARE x the largest usual displacement of all cells. Such
+# cells are run again with MORE x as many starts, SOME cells at a time. The repetition ends when a
+# new bound exceeds KEPT x the least old bound of the cells that were run together.
 RARE, MORE, SOME, KEPT = 1.2, 6, 8, 0.95
 
 
@@ -31,16 +31,15 @@ class Promise:
     Attributes
     ----------
     sets : array, shape (s, len(VARIED))
+        One row for each set: factors by which nominal values are multiplied.
     cells : list of tuple
-        A cell is a tuple: index of the set, frequency (Hz). The cells in `motions` have this order.
+        Index of the set and frequency (Hz), for each cell in `motions`.
     bounds : array, shape (cells,)
         Displacement (mm) below which at least the fraction `task.share` of all motions stays.
     peak_known : bool
-        Whether the peaks of at least NEAR x largest peak are known (see PEAK).
+        Whether the largest peak, and peaks of nearly the same height, are known (see PEAK).
     grows : bool
-        Whether the cell with the largest bound has a regime that still grows (`Motions.grows`).
-
-    docs/explanation/promise.md shows why bounds need no correction for the number of cells.
+        Whether the displacement in the worst cell still grew when its run ended (`Motions.grows`).
     """
 
     def __init__(self, task, gap, sets, stream, count=None, frequencies=None, progress=None):
@@ -75,7 +74,7 @@ class Promise:
     def _repeat_rare(self) -> None:
         """Run cells with rare motions again, with more starts.
 
-        A repeated cell has two bounds. Both are right with a probability of at least 1 - DOUBT.
+        A repeated cell has two bounds. With a probability of at least 1 - DOUBT both are right.
         """
         allowed = int(2 * (1 - self.task.share) * self.count) + 1
         usual, bounds = (self.motions.bounds(rank)[0] for rank in (allowed, self.rank))
@@ -114,7 +113,7 @@ class Promise:
         return self
 
     def by_set(self) -> np.ndarray:
-        """Return for each set of factors the largest bound over the frequency, mm."""
+        """Return the peak of each set of factors, its largest bound (mm) at all frequencies."""
         owners = np.array([k for k, _ in self.cells])
         return np.array([self.bounds[owners == k].max() for k in range(len(self.sets))])
 
@@ -154,7 +153,7 @@ def is_peak_known(frequencies, bounds, before) -> bool:
 
 
 def beside_peak(frequencies, bounds) -> list:
-    """Return the middles of the two frequency intervals beside the largest of `bounds`."""
+    """Return the middles of the frequency intervals on both sides of the largest bound."""
     k = int(np.argmax(bounds))
     ends = frequencies[max(k - 1, 0) : k + 2]
     return [float(middle) for middle in (ends[1:] + ends[:-1]) / 2]
@@ -177,7 +176,7 @@ def factor_sets(task, gap) -> np.ndarray:
 
 
 def other_sets(task, gap) -> np.ndarray:
-    """Return the different rows of `factor_sets` after the gap's factor is set to 1."""
+    """Return `factor_sets` with the gap's factor set to 1, each different row once."""
     rows = factor_sets(task, gap)
     rows[:, 0] = 1
     return np.unique(rows, axis=0)

@@ -26,7 +26,7 @@ def follow_quiet_orbit(task, choice, progress=None) -> xr.Dataset:
 
 
 def quiet_orbit(task, gap, frequency) -> Orbit | None:
-    """Return the smallest quiet orbit from random starts at a gap (mm), frequency (Hz); or None."""
+    """Return the smallest quiet orbit at a gap (mm) and a frequency (Hz), or None if not found."""
     cell = Cell(1e-3 * gap, frequency)
     records = run(task, [cell], task.effort.starts, ("orbit",)).records[0]
     pairs = records[is_symmetric_pair(records)]
@@ -38,7 +38,7 @@ def quiet_orbit(task, gap, frequency) -> Orbit | None:
 
 
 def over_gap(task, gap, frequency, orbit, cliff) -> xr.Dataset:
-    """Follow a quiet orbit over the gap (mm). Return a dataset, with the smallest stable orbit."""
+    """Return a dataset of a quiet orbit over the gap (mm), and its smallest stable displacement."""
     gaps = sizes = moduli = np.empty(0)
     if orbit is not None:
         oscillator, damper, turning = task.system(1e-3 * gap, frequency)

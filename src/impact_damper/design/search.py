@@ -1,7 +1,7 @@
 """The search for the gap: a curve of displacements over the gap, finer at small displacements.
 
-The first curve uses few starts and few frequencies. Later runs near the best gaps also vary other
-values. The value of a nominal gap is the largest displacement at all gaps within its tolerance.
+First, few starts and few frequencies are used. Later runs near the best gaps also vary other
+values. The value of a nominal gap is the largest displacement on the curve within its tolerance.
 """
 
 from typing import NamedTuple
@@ -18,14 +18,14 @@ GAPS, FREQUENCIES, STARTS = 80, 5, 10
 # Later search near the best gaps: at most ROUNDS rounds, CLOSE_STARTS starts in each cell,
 # frequencies `Task.few(CLOSE_FREQUENCIES)` and the worst frequencies of earlier rounds.
 CLOSE_FREQUENCIES, CLOSE_STARTS, ROUNDS = 11, 24, 5
-# A cell is run again if its displacement exceeds DOUBTED x usual displacement (see `_ranks`).
+# A cell is run again if its displacement exceeds DOUBTED x the usual one at its gap (`_ranks`).
 DOUBTED = 1.1
-# JUMP: at a jump, displacements at two neighbouring gaps have a ratio above JUMP.
-# SMOOTH, FINE: an interval of gaps is split if log(upper/lower gap) > SMOOTH, at a jump if > FINE.
+# Two neighbouring gaps have a jump between them if the ratio of their displacements exceeds JUMP.
+# The interval between them is split if log(gap ratio) exceeds SMOOTH, or FINE with a jump.
 JUMP, SMOOTH, FINE = 1.3, 0.03, 0.004
-# CANDIDATE: a range of nominal gaps has values of at most CANDIDATE x least value of all gaps.
-# LEVEL: a range is cut where a value exceeds LEVEL x least value of the range.
-# ALIKE: a range is good if its least value is at most ALIKE x least value of all gaps.
+# Nominal gaps whose values are at most CANDIDATE x the least value form ranges. A range ends where
+# a value exceeds LEVEL x the least value in this range. A range is good if its least value is at
+# most ALIKE x the least value of all nominal gaps.
 CANDIDATE, ALIKE, LEVEL = 1.15, 1.04, 1.05
 NOMINAL_GAPS = 4001
 # A chosen gap is rounded to DIGITS significant digits or, if needed, to more (below MOST_DIGITS).
@@ -53,7 +53,7 @@ class Curve:
         self.sets = [NOMINAL]  # sets of factors with the largest displacements near the best gaps
 
     def put(self, gaps, sizes, worst, *, close=True, replace=False) -> None:
-        """Add displacements. At a known gap keep the larger one, or the new one if `replace`."""
+        """Add displacements. At a known gap keep the larger one, with `replace` the new one."""
         for gap, size, frequency in zip(gaps, np.minimum(sizes, HUGE), worst, strict=True):
             k = int(np.searchsorted(self.gaps, gap * (1 - 1e-9)))
             if k < len(self.gaps) and self.gaps[k] <= gap * (1 + 1e-9):
@@ -67,9 +67,9 @@ class Curve:
                 self.close = np.insert(self.close, k, close)
 
     def within(self, lows, highs) -> np.ndarray:
-        """Return for each i the largest displacement at gaps from lows[i] to highs[i].
+        """Return the largest displacement on the curve in each interval lows[i] to highs[i].
 
-        At lows[i] and highs[i] the curve is interpolated; inside a jump the larger value counts.
+        At the ends of an interval the curve is interpolated. In a jump the larger value counts.
         """
         logs, values = np.log(self.gaps), np.log(self.sizes)
         found = np.full(len(lows), -np.inf)
@@ -112,10 +112,10 @@ class Curve:
         return max(good, key=lambda each: each.high / each.low)
 
     def lost(self, gap, size) -> np.ndarray:
-        """Return two rows, below and above `gap`: nearest gap that is lost, displacement there.
+        """Return two rows: nearest lost gap below and above `gap`, displacements at these gaps.
 
         A gap is lost if it lies outside the tolerance of `gap` and has a displacement above `size`.
-        Both values are NaN if no such gap was searched.
+        On a side without a lost gap the values are NaN.
         """
         found = np.full((2, 2), np.nan)
         for side, end, step in zip((0, 1), self.task.gap_ends(gap), (-1, 1), strict=True):
@@ -125,9 +125,9 @@ class Curve:
         return found
 
     def worst_inside(self, gap) -> np.ndarray:
-        """Return `sets` with the factor of the worst gap within the tolerance of `gap`.
+        """Return `sets`, with the gap's factor set to the worst gap within the tolerance of `gap`.
 
-        Empty if the displacement at `gap` or at an end of the tolerance is at least as large.
+        The result is empty if `gap` or an end of its tolerance is at least as bad.
         """
         low, high = self.task.gap_ends(gap)
         inside = np.flatnonzero((self.gaps > low) & (self.gaps < high))
@@ -178,9 +178,9 @@ def middle_gap(first, last) -> float:
 def score(task, gaps, frequencies, starts, stream, progress=None, sets=(NOMINAL,)) -> tuple:
     """Return three sequences over gaps (mm): displacement (mm), frequency (Hz), set of factors.
 
-    The results of a gap belong to the cell with the largest displacement. About the fraction
-    (1 - share)/2 of a cell's motions exceed the cell's displacement. If few starts do not show
-    whether a large motion is rare, the cell is run again with more starts.
+    The results of a gap are results of its worst cell. The displacement of a cell is exceeded by
+    about the fraction (1 - share)/2 of the cell's motions. If rare motions may have made the
+    displacement large, the cell is run again with more starts.
     """
     conditions = [(f, tuple(each)) for f in frequencies for each in sets]
     cells = [Cell(1e-3 * gap, *each) for gap in gaps for each in conditions]
@@ -201,13 +201,13 @@ def score(task, gaps, frequencies, starts, stream, progress=None, sets=(NOMINAL,
 
 
 def _ranks(task, starts):
-    """Return two numbers of motions: above a cell's displacement, above its usual displacement."""
+    """Return how many motions exceed a cell's displacement, and how many its usual displacement."""
     allowed = starts * (1 - task.share)
     return round(allowed / 2), int(2 * allowed)
 
 
 def _exceeded_by(task, motions, ranks):
-    """Return the displacement (mm) that ranks[i] motions of cell k exceed, shape (ranks, cells)."""
+    """Return the displacements (mm) that `ranks` motions exceed, shape (ranks, cells)."""
     count = len(motions.peaks)
     sizes = np.array([np.sort(motions.numbers(k, rough=True)[0]) for k in range(count)])
     return task.millimetres(np.stack([sizes[:, -1 - rank] for rank in ranks]))
@@ -233,7 +233,7 @@ def search(task, progress=None, rounds=ROUNDS) -> Curve:
 
 
 def search_around(task, gap, sets, progress=None) -> Curve:
-    """Return the curve from half a gap (mm) to twice this gap, for the worst of `sets`."""
+    """Return the curve from half to twice a gap (mm). At each gap the worst of `sets` counts."""
     curve, few = Curve(task), task.few(FREQUENCIES)
     gaps = gap * np.geomspace(0.5, 2, 2 * task.effort.candidates + 1)
     curve.put(gaps, *score(task, gaps, few, STARTS, ("search",), progress, sets)[:2])

@@ -1,4 +1,4 @@
-"""Robustness of a design: impulses on the machine, and times after which motions have returned.
+"""Robustness of a design: impulses on the machine, and how long motions take to return.
 
 The names *minimal critical shock*, *convergence time* and *finite-time basin stability* come from
 Attractors.jl, version 2. In this module a motion has returned once it stays below the promised
@@ -12,9 +12,9 @@ from impact_damper.design.cells import Cell, draw_starts, peaks_of_blocks, run
 from impact_damper.design.task import labelled
 from impact_damper.model.packed import FREQUENCY
 
-# SHOCKS: number of positive impulses, and number of negative impulses. WIDEST: the largest impulse
-# changes the velocity of the machine by WIDEST W x. W is the forcing frequency. x is the largest
-# displacement without damper or, if this is infinite, the promised displacement.
+# There are SHOCKS positive and SHOCKS negative impulses. The largest impulse changes the machine's
+# velocity by WIDEST W x. W is the angular frequency of the force. x is the largest displacement
+# without damper or, if this is infinite, the promised displacement.
 SHOCKS, WIDEST = 32, 2.0
 # A run has LONGEST cycles. The largest displacement is found in each block of BLOCK cycles.
 LONGEST, BLOCK = 1000, 10
@@ -42,7 +42,7 @@ def shocks(task, decision, progress=None) -> xr.Dataset:
     drawn = draw_starts(task, [cell], task.effort.starts, ("shocks", 1))[0]
     starts = convergence_times(task, p, drawn, promised)
     critical = np.abs(changes)[np.isinf(returned)].min(initial=np.inf)
-    # The first impulse after which a motion does not return, of one sign or both, is refined once.
+    # Impulses a little below the smallest one after which the motion does not return are tried too.
     first = changes[np.isinf(returned) & (np.abs(changes) <= critical)]
     steps = most / SHOCKS * np.arange(SHOCKS) / SHOCKS
     fine = (first[:, None] - np.sign(first)[:, None] * steps).ravel()
@@ -58,7 +58,7 @@ def shocks(task, decision, progress=None) -> xr.Dataset:
 
 
 def times_after(task, p, state, changes, promised):
-    """Return the convergence times after changes of the machine's velocity in a state."""
+    """Return the convergence time after each change of the machine's velocity, from one state."""
     states = np.tile(state, (len(changes), 1))
     states[:, 1::2] += np.asarray(changes)[:, None]
     return convergence_times(task, p, states, promised)

@@ -1,6 +1,6 @@
 """The task of a design: machine, loose mass, contact, band of frequencies, tolerances, effort.
 
-Values are in SI units, or in mm where this is said. Rule (18) of the paper gives the gap
+Values are in SI units, or in mm where stated. Rule (18) of the paper gives the gap
 2 F/(m2 w^2): F is the amplitude of the force, m2 the loose mass, w the angular frequency.
 """
 
@@ -31,16 +31,16 @@ from impact_damper.model.text import with_unit
 from impact_damper.model.units import absolute_value, check_si
 from impact_damper.theory.free_oscillator import balance_amplitudes, free_folds, maximum_response
 
-# VARIED: values that may deviate from nominal values; the last three are values of the machine.
-# NOMINAL: factors of nominal values. TOLERANCES: largest relative deviations by default.
+# VARIED: names of values that may deviate; the last three are values of the machine. NOMINAL: the
+# factors of these values without deviations. TOLERANCES: default of largest relative deviations.
 VARIED = tuple("gap restitution contact_stiffness gravity friction stiffness damping force".split())
 NOMINAL = (1.0,) * len(VARIED)
 TOLERANCES = {"gap": 0.2}
 SIDES = ["lower", "upper"]
 # Errors with which an addition to the decision may fail without ending the design.
 NUMERICAL = (ArithmeticError, ValueError, IndexError, np.linalg.LinAlgError)
-# MOST_DEVIATION: largest relative deviation that is allowed. ABSOLUTE: value whose deviation may
-# have a unit -> physical quantity. The quantity of `force` depends on the machine's excitation.
+# MOST_DEVIATION: largest relative deviation that is allowed. ABSOLUTE: name of a value whose
+# deviation may have a unit -> physical quantity. The deviation of `force` may have a unit too.
 MOST_DEVIATION = 0.9
 ABSOLUTE = {
     "gap": "displacement",
@@ -48,17 +48,17 @@ ABSOLUTE = {
     "stiffness": "stiffness",
     "damping": "damping",
 }
-# The least gap of a design is LEAST_GAP x min(least gap of rule (18), greatest gap of the design).
+# The least gap considered is LEAST_GAP x min(least gap by rule (18), greatest gap considered).
 LEAST_GAP = 0.15
-# If the machine without damper escapes at all frequencies, the greatest gap of a design is
-# ESCAPING x greatest gap of rule (18).
+# If the machine without damper escapes at all frequencies, the greatest gap considered is
+# ESCAPING x the greatest gap by rule (18).
 ESCAPING = 4.0
-# An absorber is tuned over the frequencies from ABSORBED[0] x least to ABSORBED[1] x greatest
-# frequency of band and resonance.
+# An absorber is tuned over a range of frequencies: from ABSORBED[0] x the least to ABSORBED[1] x
+# the greatest frequency of band and resonances.
 ABSORBED = 0.5, 2.0
-# Length of the first run of a motion (`cells.run`), unless `Effort.settling` is shorter:
-# chaotic motion: max(PATIENT x decay time of the machine in cycles, LEAST_PATIENCE) cycles,
-# other motion: max(LONG x PATIENT x decay time of the machine in cycles, LEAST_LIMIT) cycles.
+# Largest number of cycles in the first run of a motion. D is the machine's decay time in cycles.
+# Chaotic motion: PATIENT D, but at least LEAST_PATIENCE. Any other motion: LONG PATIENT D, but at
+# least LEAST_LIMIT. `Effort.settling` may set smaller numbers.
 PATIENT, LEAST_PATIENCE = 5, 100
 LONG, LEAST_LIMIT = 6, 600
 # Least number of cycles in which a motion is measured if it has not settled.
@@ -66,7 +66,7 @@ WATCHED = 100
 
 
 def labelled(values, **coordinates) -> xr.Dataset:
-    """Return a dataset of registered variables: displacements in mm, other values in SI units."""
+    """Return a dataset with units and descriptions. Displacements are in mm, other values in SI."""
     made = {name: shown_variable(name, value) for name, value in values.items()}
     known = {name: shown_variable(name, value) for name, value in coordinates.items()}
     return xr.Dataset(made, known, {"source": SOURCE})
@@ -82,7 +82,7 @@ class Effort:
     frequencies : int
         Number of frequencies over the band. Each resonance replaces the nearest frequency.
     candidates : int
-        Largest number of gaps in each round after the first search over all gaps.
+        Largest number of gaps in each round that refines the first search over all gaps.
     starts : int
         Number of random starts (initial states) with which a gap is confirmed at each frequency.
     seed : int
@@ -197,7 +197,7 @@ class Task:
         """Return the stiffness of the contact, N/m.
 
         By Hertz's law the stiffness grows with the speed of impact. The speed is assumed to be
-        2 f g: f is the middle frequency of the band, g the gap of rule (18) at this frequency.
+        2 f g: f is the middle frequency of the band, g the gap by rule (18) at this frequency.
         """
         limits = self.scales.range_to_si(bounds.STIFFNESS_RANGE, "stiffness")
         stiffness = self.contact
@@ -231,7 +231,7 @@ class Task:
                 self.packed(gap, frequency, factors)
 
     def _checked_tolerances(self):
-        """Return the tolerances as fractions. An absolute tolerance of the gap is a text in m."""
+        """Return the tolerances as fractions. A tolerance of the gap in m stays a text."""
         if not isinstance(self.tolerances, Mapping):
             raise TypeError(f"tolerances = {bounds.shown(self.tolerances)}: must be a dictionary")
         machine, found = self.machine, {}
@@ -299,7 +299,7 @@ class Task:
 
     @cached_property
     def hurried(self) -> Settling:
-        """`Settling` of first runs (`cells.run`), limited to some decay times (see PATIENT)."""
+        """Settings of first runs, which last only some decay times of the machine (see PATIENT)."""
         full = self.effort.settling
         # Decay time of the machine in forcing cycles at the middle frequency of the band.
         decay = sum(self.band) * self.machine.mass / self.machine.viscous_damping
@@ -309,14 +309,14 @@ class Task:
 
     @cached_property
     def resonances(self) -> list[float]:
-        """Resonances in the band, Hz: the loose mass is absent, or fixed to the machine."""
+        """Resonances in the band, Hz, without a loose mass and with the loose mass fixed."""
         ratio = math.sqrt(1 + self.mass / self.machine.mass)
         found = [each for end in self.resonance for each in (end / ratio, end)]
         return [each for each in found if self.band[0] < each < self.band[1]]
 
     @cached_property
     def grid(self) -> np.ndarray:
-        """Evenly spaced frequencies over the band, Hz. Each resonance replaces the nearest one."""
+        """Evenly spaced frequencies over the band, Hz, the nearest ones replaced by resonances."""
         values = np.linspace(*self.band, self.effort.frequencies)
         for frequency in self.resonances:
             values[1 + np.argmin(np.abs(values[1:-1] - frequency))] = frequency
@@ -337,7 +337,7 @@ class Task:
         return "yes" if any(len(sizes) > 1 for sizes in self._balances(self.grid)) else "no"
 
     def _balances(self, frequencies) -> list:
-        """Return for each frequency (Hz) the dimensionless amplitudes without damper, ascending."""
+        """Return ascending dimensionless amplitudes without damper for each frequency (Hz)."""
         oscillator = self.machine.oscillator()
         turning = self.scales.from_si(np.asarray(frequencies), "frequency")
         return [balance_amplitudes(oscillator, w) for w in turning]

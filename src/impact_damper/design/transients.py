@@ -38,12 +38,12 @@ TOLERANCE = 1e-10
 SWEEP, MOST_SWEPT = 4.0, 6000
 # Largest relative change of the frequency in a forcing cycle.
 STEEPEST = 0.01
-# Before a sweep the first frequency is held. SETTLED: fraction to which transients without the
-# damper decay in this time. HELD: largest number of forcing cycles in this time.
+# Before a sweep the first frequency is held until transients without the damper have decayed to
+# the fraction SETTLED, but for at most HELD forcing cycles.
 SETTLED, HELD = 0.01, 10**5
-# REST: a decay ends when its energy has fallen to the energy at REST x first displacement.
-# MOST_WINDOWS: largest number of windows of a decay. A window is a period of unforced vibration.
-# LONGEST: longest window with a softening spring, in periods of small vibrations.
+# A decay ends when its energy has fallen to the energy at REST x the first displacement, or after
+# MOST_WINDOWS windows. A window is one period of unforced vibration. With a softening spring it is
+# at most LONGEST periods of small vibrations.
 REST, MOST_WINDOWS, LONGEST = 1e-3, 10**4, 2.0
 
 
@@ -156,7 +156,7 @@ def decay(machine, damper, displacement):
 
 
 def lowest_energy(p, y) -> float:
-    """Return the energy at rest. Friction holds the loose mass, or gravity puts it on a wall."""
+    """Return the energy at rest. Gravity puts the loose mass on a wall unless friction holds it."""
     if not p[INVERSE_MASS_RATIO]:
         return 0.0
     weight = p[GRAVITY] / p[INVERSE_MASS_RATIO]
@@ -188,11 +188,11 @@ def unforced_amplitude(stiffness, cubic, stored) -> float:
 
 
 def unforced_period(stiffness, cubic, amplitude) -> float:
-    """Return the period of x'' + a x + b x^3 = 0 at an amplitude A, infinite at the barrier.
+    """Return the period of x'' + a x + b x^3 = 0 at an amplitude A.
 
     The motion is A cn(w t | m) with w^2 = a + b A^2 and m = b A^2/(2 w^2). The period is 4 K(m)/w.
     K is the complete elliptic integral of the first kind. (A. H. Nayfeh and D. T. Mook, Nonlinear
-    Oscillations, 1979, section 2.1.)
+    Oscillations, 1979, section 2.1.) The period is infinite if the spring pulls outwards at A.
     """
     square = stiffness + cubic * amplitude**2
     if square <= 0:

@@ -8,7 +8,7 @@ from impact_damper.data.variables import BASIN_LABEL
 from impact_damper.plot import style
 from impact_damper.plot.sheets import dataset_in, sheet
 
-# Colours of attractors in ascending order of displacement. The last of several has the last colour.
+# Colours of attractors by ascending displacement. The largest of several has the last colour.
 COLOURS = (style.SKY, style.VERMILION, style.PURPLE, "#F7E7A6")
 CHAOS = style.ORANGE
 # Colours of states that lead to no attractor, for the labels -6 to -1 (`BASIN_LABEL`).
@@ -93,7 +93,7 @@ def _fill(axes, data, values, **look):
 
 
 def _name(axes, data):
-    """Label the axes. The title has frequency and phase; without units also the damper."""
+    """Label the axes. Put frequency and phase in the title, and a dimensionless damper too."""
     frequency = data["frequency"]
     if frequency.attrs["units"] == "1":
         names = ("mass_ratio", "clearance") if has_damper(data) else ()

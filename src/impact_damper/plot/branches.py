@@ -16,16 +16,16 @@ EVENTS = {
     "grazing": ("change of contact", "P", style.SKY),
     "merging": ("change of contact", "P", style.SKY),
 }
-# OPEN_ENDS: ends beyond which a branch goes on inside the parameter range. OPEN: marker of an end.
+# OPEN_ENDS: kinds of ends beyond which a branch goes on, but was not computed. OPEN: their marker.
 OPEN_ENDS = ("lost", "point_limit", "unstable")
 OPEN = {"marker": "x", "color": style.BLACK, "markersize": 4.5, "linestyle": "none", "zorder": 3.1}
-# Columns: label, colour, opacity of unstable orbits, test of the period.
+# Columns: label, colour, opacity of unstable orbits, condition on the period.
 PERIODS = [
     ("period 1", style.BLUE, 1.0, lambda period: period == 1),
     ("period 3", style.PURPLE, 1.0, lambda period: period == 3),
     ("other periods", style.ORANGE, 0.4, lambda period: period not in (1, 3)),
 ]
-# Without a damper. Columns: role in `style.ROLES` if stable, role if unstable, test of the period.
+# Orbits without a damper. Columns: role if stable, role if unstable, condition on the period.
 FREE = [
     ("free_stable", "free_unstable", lambda period: period == 1),
     ("subharmonic_free", "subharmonic_unstable", lambda period: period == 3),
@@ -74,7 +74,7 @@ def branch(data, axes=None):
 
 
 def followed_label(data):
-    """Return the label of the axis of the parameter that varies along a branch."""
+    """Return the axis label of the parameter that varies along a branch."""
     name, units = parameters_of(data)["parameter"], data["followed_value"].attrs["units"]
     words = {
         ("frequency", units): "Forcing frequency",
@@ -86,7 +86,7 @@ def followed_label(data):
 
 
 def runs(data, chosen):
-    """Yield `parts_by_stability` of each branch whose period passes the test `chosen`."""
+    """Yield the `parts_by_stability` of each branch for whose period `chosen` is true."""
     stable = data["orbit_stability"].values == flag("orbit_stability", "stable")
     value, size = data["followed_value"].values, data["orbit_displacement"].values
     for branch, period in enumerate(data["branch_period"].values):

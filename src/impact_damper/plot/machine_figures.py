@@ -45,7 +45,7 @@ def draw_answer(data):
 
 
 def frequency_panel(axes, data):
-    """Draw displacements against the forcing frequency: lines of bounds, points of motions."""
+    """Draw displacements against the forcing frequency: bounds as lines, motions as points."""
     frequency = data["promise_frequency"].values
     plot_sizes(axes, frequency, data["promise_bare_displacement"].values, **BARE)
     if "competitor_displacement" in data:
@@ -68,9 +68,9 @@ def frequency_panel(axes, data):
 
 
 def over_frequency(data) -> tuple:
-    """Return two arrays of displacements over frequency: of the nominal set, of the worst set.
+    """Return two arrays of displacements over frequency: for nominal values, for the worst values.
 
-    A set is a choice of values within the tolerances. Missing displacements are interpolated.
+    At each frequency the worst values within the tolerances count. NaN is interpolated.
     """
     frequency, table = data["promise_frequency"].values, data["promise_displacement"].values
     rows = []

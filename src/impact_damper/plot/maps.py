@@ -20,7 +20,7 @@ def mesh(axes, x, y, values, norm, absent=None):
 
 
 def hatch(axes, x, y, where, **look):
-    """Hatch the cells of a mask. All cells form one path, because many paths are slow."""
+    """Hatch the cells at which `where` is true. One path for all cells is fast."""
     x, y = edges_of(x), edges_of(y)
     cells = [
         Path.unit_rectangle().transformed(
@@ -33,14 +33,14 @@ def hatch(axes, x, y, where, **look):
 
 
 def edges_of(centres):
-    """Return n + 1 edges of n > 1 cells from centres. Inner edges are midway between centres."""
+    """Return the edges of two or more cells. Inner edges are midway between the centres."""
     middles = (centres[1:] + centres[:-1]) / 2
     return np.concatenate([[2 * centres[0] - middles[0]], middles, [2 * centres[-1] - middles[-1]]])
 
 
 @style.context()
 def migration_map(data):
-    """Return the figure of a result of `design.migration.migration`."""
+    """Return a map of the share of releases that succeed, over frequency and gap."""
     drawn = style.figure("single", 3.2)
     axes = drawn.subplots()
     frequencies, gaps = data["released_frequency"].values, data["released_gap"].values

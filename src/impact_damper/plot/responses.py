@@ -9,7 +9,7 @@ from impact_damper.plot.sheets import datasets_in, sheet
 
 # Look of the line that joins the settled motions of a branch.
 JOINED = {"linestyle": "-", "linewidth": 0.5}
-# Outcome of a motion other than settled -> look. DAMPED: with a damper. FREE: without a damper.
+# Outcome of a motion, except settled -> look. DAMPED: with a damper. FREE: without a damper.
 DAMPED = {name: style.ROLES[name] for name in ("chaotic", "chaotic_transient", "quasi_periodic")}
 DAMPED |= {name: style.ROLES["non_colliding"] for name in ("non_colliding", "drifting")}
 DAMPED["unresolved"] = style.ROLES["unresolved"]
@@ -87,7 +87,7 @@ def _kind(data):
 
 
 def _draw_orbits(axes, orbits, stable):
-    """Draw free orbits; with a damper unstable orbits of period 1, stable orbits if `stable`."""
+    """Draw orbits. With a damper, draw unstable ones of period 1, and if `stable` stable ones."""
     if not has_damper(orbits):
         draw_free_orbits(axes, orbits)
         return
@@ -154,7 +154,7 @@ def _draw_motions(axes, motions):
 
 
 def _branch_lines(motions, chosen):
-    """Yield frequencies and displacements of each branch and period, up to the branch's ends."""
+    """Yield frequencies and displacements of a line for each branch and period, with its ends."""
     branch, period = motions["branch"].values, motions["period"].values
     names = ("end_branch", "end_direction", "end_value", "end_displacement")
     ends = list(zip(*(motions[name].values for name in names), strict=True))
@@ -171,7 +171,7 @@ def _branch_lines(motions, chosen):
 
 
 def _draw_unsettled(axes, motions, looks):
-    """Draw unsettled motions as points. Chaos that ended in a run is a chaotic transient."""
+    """Draw unsettled motions as points. Chaos that ended in a run looks like a transient."""
     for status, look in looks.items():
         outcome = "chaotic" if status == "chaotic_transient" else status
         chosen = motions["outcome"].values == flag("outcome", outcome)

@@ -15,7 +15,7 @@ def datasets_in(data, takes, words) -> list[xr.Dataset]:
     """Return one or several datasets as a list.
 
     The function `takes` returns whether a dataset is allowed. `words` names the functions whose
-    results are allowed. Other datasets raise TypeError. Datasets of several machines do so too.
+    results are allowed. Other datasets and datasets of several machines raise TypeError.
     """
     found = [data] if isinstance(data, xr.Dataset) else data
     if not isinstance(found, (list, tuple)) or not found:
@@ -41,7 +41,7 @@ def dataset_in(data, takes, words) -> xr.Dataset:
 def sheet(axes, count=1, height=3.6, columns=3):
     """Return a context that yields the given axes, or `count` axes of a new figure.
 
-    A new figure is `height` inches high. Its legend has `columns` columns. 0 means no legend.
+    A new figure is `height` inches high. Its legend has `columns` columns. With 0 there is none.
     """
     if axes is not None:
         given = list(np.ravel(np.array(axes, object)))

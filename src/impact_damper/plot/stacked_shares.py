@@ -38,8 +38,8 @@ INTERVAL = {"color": style.BLACK, "linewidth": 0.6}
 def shares(data, axes=None):
     """Draw the stacked shares of random starts that lead to each motion, with 95 % intervals.
 
-    A motion has one colour at all frequencies or clearances. The motion of a kind with most starts
-    has the full colour. Further motions of the kind are paler.
+    The colour shows the kind of a motion, such as "period 1". Among motions of the same kind, the
+    motion with most starts has the full colour, and the others are paler.
 
     Parameters
     ----------
@@ -88,7 +88,7 @@ def _look(kind, rank):
 
 
 def _ranked_motions(data):
-    """Return (kind, rank, mask) of each motion. Rank 0 of a kind has most starts."""
+    """Return (kind, rank, mask) of each motion. The motion with most starts has rank 0."""
     found, ranks = {kind: [] for kind in LOOKS}, Counter()
     for each in families(data):
         if each.starts:
@@ -103,7 +103,7 @@ def _ranked_motions(data):
 
 
 def _parts(data, kind, places):
-    """Return a motion's masks, keyed by kind. Chaos that ended in a run is a transient."""
+    """Return a motion's masks, keyed by kind. Chaos that ended in a run is a chaotic transient."""
     if kind != "chaotic" or "life_ends" not in data:
         return {kind: places}
     ended = data["life_ends"].values > 0

@@ -32,7 +32,7 @@ STYLE = {
     "legend.frameon": False,
     "legend.handlelength": 2.4,
     "legend.columnspacing": 1.4,
-    # Height of titles. With None matplotlib searches a free height in a fifth of the drawing time.
+    # Height of titles. With None a search for a free height takes a fifth of the drawing time.
     "axes.titley": 1.0,
     "axes.linewidth": 0.6,
     "axes.prop_cycle": cycler(color=[BLUE, VERMILION, GREEN, ORANGE, PURPLE, BLACK]),
@@ -206,7 +206,7 @@ def legend(figure, columns) -> None:
 def save_figure(figure, path) -> None:
     """Write `path`.pdf and `path`.png. Each file is complete or absent, with reproducible bytes.
 
-    The layout is computed once, so that both files have one layout. Then the layout engine is
+    The layout is computed once, so that both files have the same layout. Then the layout engine is
     removed, because with a layout engine matplotlib draws each file twice.
     """
     with context():

@@ -35,7 +35,7 @@ def conclusion(data) -> list[str]:
 def check_folder(folder, machine, force) -> None:
     """Raise OSError if files cannot be written into a folder.
 
-    Without `force`, an `index.html` of another program or data of another machine are also errors.
+    Without `force`, also raise it for a page of another program, or data of another machine.
     """
     check_writable(folder / "index.html")
     if force:
@@ -248,7 +248,7 @@ def _hits(data) -> float:
 
 
 def _peak(data, name) -> SimpleNamespace:
-    """Return the largest value of a variable over the band and the frequency there, or NaN."""
+    """Return a variable's largest value over the band, and its frequency. Both may be NaN."""
     if name not in data or np.isnan(data[name]).all():
         return SimpleNamespace(size=np.nan, frequency=np.nan)
     k = int(np.nanargmax(data[name].values))
@@ -328,7 +328,7 @@ def _worse(data, nominal):
 
 
 def _other_mass(data, asked):
-    """Return a heavier damper that is good enough if this damper is not. Else return None."""
+    """Return the heavier damper if it is good enough and this damper is not, otherwise None."""
     missed = named(data, "limit_status") == "missed"
     fails = missed or named(data, "decision") == "do_not_build"
     if "other_mass" not in data or not fails:
