@@ -1,8 +1,9 @@
-"""Integrate many trajectories. A step advances LANES trajectories together in vector registers.
+"""Integrate many trajectories. One step advances LANES trajectories together, one in each lane.
 
-All trajectories of one step must be in flight, or all must be in contact. Therefore a pool holds
-more trajectories than there are lanes, and has a queue for each kind of step. Each step takes its
-trajectories from the longest queue. The result of a trajectory depends on no other trajectory.
+A lane is a place in the vectors with which the processor computes. All trajectories of one step
+must be in flight, or all must be in contact. Therefore a pool holds more trajectories than there
+are lanes, and each step takes its trajectories from the longest of several queues. The result of a
+trajectory does not depend on the other trajectories.
 """
 
 from typing import NamedTuple
@@ -17,7 +18,7 @@ from impact_damper.kernel.single import extremum
 from impact_damper.model import packed
 
 LANES = 16
-# Largest number of trajectories in a pool. With 64 the longest queue mostly fills all lanes.
+# Largest number of trajectories in a pool. With 64 the longest queue fills all lanes in most steps.
 RESIDENT = 64
 FLIGHT, CONTACT, FLIGHT_WITH_TANGENT, CONTACT_WITH_TANGENT = range(4)
 
@@ -26,7 +27,7 @@ flight_step, contact_step = by_address(_MANY.flight_step), by_address(_MANY.cont
 flight_tangents = by_address(_MANY.flight_tangents)
 contact_tangents = by_address(_MANY.contact_tangents)
 SIZE, TANGENT_SIZE = _MANY.SIZE, _MANY.TANGENT_SIZE
-# Numbers of rows of a step. Row k < LENGTH of trajectory m is stored in `Pool.numbers[m, k]`.
+# Indices of rows (`instances.rows`). `Pool.numbers[m, k]` is row k of trajectory m, k < LENGTH.
 STATE, SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
     row // LANES
     for row in (_MANY.Y0, _MANY.SIDE, _MANY.TIME, _MANY.LONGEST, _MANY.TOLERANCE, _MANY.LENGTH)
@@ -34,19 +35,18 @@ STATE, SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
 
 
 class Pool(NamedTuple):
-    """A pool of m trajectories, each of which is integrated to its own end time.
+    """A pool of m trajectories. Each trajectory has its own end time.
 
     numbers: Parameters, state, side, time, longest step and tolerance; shape (m, LENGTH).
     ends: End times; shape (m,).
     farthest: |Z1| beyond which a trajectory escapes (`equation.no_return`); shape (m,).
-    tangents: One tangent of each trajectory; shape (m, 4).
-    queues: For each kind of step, indices of the trajectories that wait for it; shape (4, m).
+    tangents: A solution of the variational equations for each trajectory; shape (m, 4).
+    queues: Indices of the waiting trajectories, a row for each kind of step; shape (4, m).
     waiting: Number of trajectories in each queue; shape (4,).
     contacts: Number of contacts begun since the last call of `send`; shape (m,).
-    largest: Largest |Z1| since the last call of `enter`; shape (m,). All numbers are NaN if the
-        caller does not need the largest |Z1|.
-    held: Index of the trajectory whose parameters are in each lane, or -1; shape (LANES,).
-    a, d: Rows of the trajectories of a step (a), and of the tangents (d): `instances.rows`.
+    largest: Largest |Z1| since the last call of `enter`, NaN if not needed; shape (m,).
+    held: Index of the trajectory whose parameters a lane holds, -1 if none; shape (LANES,).
+    a, d: Arrays of a step, for trajectories (a) and their tangents (d): `instances.rows`.
     """
 
     numbers: np.ndarray
@@ -82,7 +82,7 @@ def make_pool(size):
 
 @kernel
 def enter(pool, m, p, y, side, tolerance):
-    """Write a trajectory into a pool at index m. A call of `send` then begins the integration."""
+    """Write a trajectory into a pool at index m. The integration begins after a call of `send`."""
     numbers = pool.numbers[m]
     for i in range(packed.COUNT):
         numbers[i] = p[i]
@@ -99,7 +99,7 @@ def enter(pool, m, p, y, side, tolerance):
 
 @kernel
 def send(pool, m, t, end, with_tangent):
-    """Put trajectory m into the queue for integration from time t to time `end`."""
+    """Queue trajectory m for integration from time t to time `end`."""
     pool.numbers[m, TIME] = t
     pool.ends[m] = end
     pool.contacts[m] = 0
@@ -109,17 +109,17 @@ def send(pool, m, t, end, with_tangent):
 
 @kernel_only
 def enqueue(queues, waiting, m, kind):
-    """Append trajectory m to the queue for steps of a kind."""
+    """Append trajectory m to the queue for steps of the given kind."""
     queues[kind, waiting[kind]] = m
     waiting[kind] += 1
 
 
 @kernel
 def choose(pool, chosen):
-    """Take at most LANES trajectories from the longest queue.
+    """Take up to LANES trajectories from the longest queue.
 
-    `chosen[lane]` becomes the index of a taken trajectory. Lanes that remain free get the last
-    index again. Return two numbers: how many trajectories were taken, and their kind of step.
+    Return how many trajectories were taken, and their kind of step. `chosen` receives an index for
+    each lane. If fewer than LANES trajectories were taken, the last index fills the other lanes.
     """
     waiting = pool.waiting
     kind = FLIGHT
@@ -135,7 +135,7 @@ def choose(pool, chosen):
 
 @kernel_only
 def gather(pool, chosen, kind):
-    """Copy chosen trajectories into lanes, but no parameters that a lane already holds."""
+    """Copy chosen trajectories into the lanes, but not parameters that a lane already holds."""
     for lane in range(LANES):
         m = chosen[lane]
         numbers = pool.numbers[m]
@@ -153,10 +153,10 @@ def gather(pool, chosen, kind):
 
 @kernel_only
 def scatter(pool, chosen, count, kind, arrived):
-    """Copy trajectories from lanes into the pool, and put unfinished trajectories into queues.
+    """Copy trajectories from the lanes back into the pool. Queue unfinished trajectories again.
 
-    Return the number of trajectories that have ended. `arrived` receives the indices of the ended
-    trajectories. An escaped trajectory (`equation.no_return`) ends in the state at the escape.
+    Return how many trajectories have ended. `arrived` receives the indices of these trajectories.
+    An escaped trajectory (`equation.no_return`) ends in the state at the escape.
     """
     ended = 0
     for lane in range(count):
@@ -188,7 +188,7 @@ def scatter(pool, chosen, count, kind, arrived):
 
 @kernel_only
 def raise_largest(pool, chosen, count, order):
-    """Update `pool.largest` of chosen trajectories with the largest |Z1| in the last step."""
+    """Raise `pool.largest` of chosen trajectories if |Z1| was larger in the last step."""
     series = np.empty(max(FLIGHT_ORDER, CONTACT_ORDER) + 1)
     for lane in range(count):
         m = chosen[lane]
@@ -200,9 +200,9 @@ def raise_largest(pool, chosen, count, order):
 
 @kernel
 def advance_some(pool, chosen, arrived):
-    """Step the trajectories of a pool until some have ended. Return how many have ended.
+    """Advance the trajectories of a pool until at least one has ended. Return how many have ended.
 
-    `arrived` (LANES,) receives ended trajectories' indices. `chosen` (LANES,) is working memory.
+    `arrived` (LANES,) receives the indices of ended trajectories. `chosen` (LANES,) is overwritten.
     """
     ended = 0
     a, d = pointer(pool.a), pointer(pool.d)
@@ -227,9 +227,9 @@ def advance_some(pool, chosen, arrived):
 def advance(parameters, states, sides, starts, ends, tolerance, contacts, largest=None):
     """Integrate trajectories, each from its start time to its end time.
 
-    The function replaces `states` (m, 4) and `sides` (m,), the walls in contact. `contacts` (m,)
-    receives the number of contacts that began in each trajectory. `largest` (m,) receives the
-    largest |Z1| of each trajectory, or infinity after an escape.
+    The final states replace `states` (m, 4), and the walls in contact at the end replace `sides`
+    (m,). `contacts` (m,) receives the number of contacts that began in each trajectory. `largest`
+    (m,) receives the largest |Z1| of each trajectory, or infinity after an escape.
     """
     size = min(len(states), RESIDENT)
     pool = make_pool(size)

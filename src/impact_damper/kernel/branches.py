@@ -1,8 +1,8 @@
-"""Compile the templates of a step without numba's front end, which would take most of the time.
+"""Compile templates without numba's front end, which would take most of the compilation time.
 
-A template is a Python function. Its arguments are numbers and pointers to float64. It consists of
-assignments, calls, `if`, `while`, `return`, and `for` loops over `range(count)` with a constant
-count. Expressions of constants are evaluated at compilation. Unreachable code is left out.
+A template is a Python function of the integration step (folder `templates`). Its arguments are
+numbers and pointers to float64. It consists of assignments, calls, `if`, `while`, `return`, and
+`for` loops over `range(count)` with a constant count.
 """
 
 import ast
@@ -22,7 +22,7 @@ from numba.extending import intrinsic
 from impact_damper.kernel.compiling import CONTRACT
 
 FLOAT, INTEGER, TRUTH = ir.DoubleType(), ir.IntType(64), ir.IntType(1)
-# Operator -> Python function, LLVM instruction for floats, LLVM instruction for integers.
+# For each operator: Python function, LLVM instruction for floats, LLVM instruction for integers.
 OPERATORS = {
     ast.Add: (operator.add, "fadd", "add"),
     ast.Sub: (operator.sub, "fsub", "sub"),
@@ -40,7 +40,7 @@ INTRINSICS = {math.sqrt: "sqrt", math.sin: "sin", math.cos: "cos", np.floor: "fl
 
 @cache
 def _definitions(file):
-    """Return the syntax trees of a file's functions. Keys are the numbers of their first lines."""
+    """Return the syntax tree of each function in a file. Keys are line numbers in the file."""
     found = {}
     for node in ast.walk(ast.parse(Path(file).read_text())):
         if isinstance(node, ast.FunctionDef):
@@ -54,7 +54,7 @@ def definition(function):
 
 
 def bits(x):
-    """Return the bits of a float as an integer. It is about 2^52 (1023 + log2(x)) if x > 0."""
+    """Return a float's bits as an integer. For x > 0 it is about 2^52 (1023 + log2(x))."""
     return int(np.float64(x).view(np.int64))
 
 
@@ -64,13 +64,13 @@ def number(x):
 
 
 def template(function, caller):
-    """Return an intrinsic by which kernels call a template. `caller` only calls the template."""
+    """Return a wrapper with which kernels can call a template. `caller` only calls the wrapper."""
 
     def generate(context, builder, signature, arguments):
         builder.call(_compiled(builder.module, function, arguments), arguments)
         return context.get_dummy_value()
 
-    # numba takes the number of the intrinsic's arguments from the signature of these functions.
+    # numba finds out from the signature of these functions how many arguments the wrapper takes.
     def of_one(typing, a):
         return types.void(a), generate
 
@@ -83,7 +83,7 @@ def template(function, caller):
 
 
 def _is_llvm(value):
-    """Return whether a value is an LLVM value, which is known only when the compiled code runs."""
+    """Return whether a value becomes known only when the compiled code runs (an LLVM value)."""
     return isinstance(value, ir.Value)
 
 
@@ -112,7 +112,7 @@ class Body(ast.NodeVisitor):
     def __init__(self, builder, function):
         self.builder, self.function = builder, function
         self.tree = definition(function)
-        # `values` of names assigned once, `memory` of other names, memory of `returned` values.
+        # Names assigned once are in `values`, other names in `memory`, results in `returned`.
         self.values, self.memory, self.returned = {}, {}, []
 
     def expand(self, arguments):
@@ -134,7 +134,7 @@ class Body(ast.NodeVisitor):
         return values[0] if len(values) == 1 else values
 
     def run(self, statements):
-        """Write statements, up to the first `return`."""
+        """Write the code of statements, up to the first `return`."""
         for statement in statements:
             if not self.builder.block.is_terminated:
                 self.visit(statement)
@@ -184,7 +184,7 @@ class Body(ast.NodeVisitor):
         self.store(node.target, self.visit(value))
 
     def store(self, target, value):
-        """Assign a value to a name or to an array entry, or several values to several targets."""
+        """Assign a value to a name, to an array entry, or to a tuple of such targets."""
         if isinstance(target, ast.Tuple):
             for each, part in zip(target.elts, value, strict=True):
                 self.store(each, part)
@@ -225,7 +225,7 @@ class Body(ast.NodeVisitor):
         self.builder.position_at_end(after)
 
     def visit_For(self, node):
-        """Write a loop `for i` of several rounds as a loop in LLVM. Unroll all other loops."""
+        """Write the loop over `i` as a loop in LLVM. Unroll other loops, and loops of one round."""
         count, counter = self.visit(node.iter.args[0]), node.target.id
         if counter == "i" and count > 1:
             with cgutils.for_range(self.builder, ir.Constant(INTEGER, count)) as loop:
@@ -280,7 +280,7 @@ class Body(ast.NodeVisitor):
         return reduce(self.builder.and_, map(self.compared, signs, terms, terms[1:]))
 
     def compared(self, sign, *pair):
-        """Return the result of a comparison of two numbers. NaN is compared as in Python."""
+        """Return the result of comparing two numbers. `sign` is the operator, such as "<"."""
         pair = self.alike(*pair)
         if pair[0].type != FLOAT:
             return self.builder.icmp_signed(sign, *pair)
@@ -304,7 +304,7 @@ class Body(ast.NodeVisitor):
         return getattr(self.builder, whole)(*pair)
 
     def extreme(self, sign, found, other):
-        """Return the smaller (sign "<") or larger (">") number. NaN is compared as in Python."""
+        """Return the smaller (sign "<") or the larger (sign ">") of two numbers."""
         return self.builder.select(self.compared(sign, other, found), other, found)
 
     def visit_Call(self, node):

@@ -4,9 +4,9 @@
     kernel_only  Only kernels can call the function. Its machine code is cached with each caller.
     inlined      Kernels that call the function contain a copy of the function.
 
-numba compiles a cached kernel again if the kernel's own file was edited. numba does not notice
-edits of other files with functions that the kernel calls. Therefore each module has a cache folder
-for its kernels. The folder's name is a digest of all files on which these kernels can depend.
+numba compiles a cached kernel again after an edit of the kernel's own file. But numba does not
+notice an edit of another file whose functions the kernel calls. Therefore each module has a cache
+folder, and the folder's name is a digest of all files on which the module's kernels can depend.
 """
 
 import gc
@@ -30,10 +30,10 @@ from numba.extending import intrinsic
 
 from impact_damper.kernel.sources import kernel_digest
 
-# Time spent on compilation, in s, after which MESSAGE is printed.
+# MESSAGE is printed when compilation has taken this time, in s.
 PATIENCE = 1.0
 MESSAGE = "impact_damper: compiling kernels; later sessions will load them from the cache"
-# Kind of the numba event with which `compiled` reports that it compiles a kernel.
+# Name of the event that `compiled` reports to numba's listeners while a kernel is compiled.
 COMPILING = "impact_damper:compile"
 # Number of float64 numbers in a cache line of the processor (64 bytes).
 CACHE_LINE = 8
@@ -58,7 +58,7 @@ CACHE_DIRECTORY = cache_directory()
 
 @contextmanager
 def own_cache(function):
-    """Return a context in which numba caches `function` in the folder of the function's module."""
+    """Let numba cache `function` in the cache folder of the function's module."""
     path = Path(function.__code__.co_filename)
     generated = path.is_relative_to(CACHE_DIRECTORY)
     before = numba.config.CACHE_DIR
@@ -70,14 +70,14 @@ def own_cache(function):
 
 
 # CONTRACT: LLVM may fuse a multiplication with an addition, but not change arithmetic otherwise.
-# "nogil": kernels release Python's global interpreter lock. So threads can run kernels in parallel.
+# "nogil": kernels release Python's global interpreter lock, so that threads run in parallel.
 # "error_model": with "numpy", a division by zero gives infinity or NaN and raises no error.
 CONTRACT = ("contract",)
 SETTINGS = {"cache": True, "nogil": True, "fastmath": set(CONTRACT), "error_model": "numpy"}
 
 
 def kernel(function, **options):
-    """Decorate a function as a kernel. `options` are options of numba, and override SETTINGS."""
+    """Turn a function into a kernel. `options` are numba options that override SETTINGS."""
     with own_cache(function):
         return numba.njit(no_cfunc_wrapper=True, **SETTINGS | options)(function)
 
@@ -88,7 +88,7 @@ inlined = partial(kernel, inline="always")
 
 @kernel
 def aligned(count):
-    """Return an array of `count` zeros that begins at a cache line, so that vectors load fast."""
+    """Return an array of `count` zeros that begins with a cache line, so that vectors load fast."""
     numbers = np.zeros(count + CACHE_LINE)
     before = -numbers.ctypes.data // 8 % CACHE_LINE
     return numbers[before : before + count]
@@ -98,7 +98,8 @@ def aligned(count):
 def pointer(typing, array):
     """Return a pointer to the first element of an array. The caller must keep the array alive.
 
-    numba counts references to arrays, but not to pointers. Counting takes longer than some kernels.
+    numba counts references to arrays, which takes longer than some kernels. Pointers are not
+    counted.
     """
 
     def generate(context, builder, signature, arguments):
@@ -124,10 +125,9 @@ def compiled(function):
 def by_address(function):
     """Return a stand-in for a kernel. A call of the stand-in jumps to the kernel's address.
 
-    Without the stand-in, LLVM would compile the kernel again as part of each caller. A compiled
-    caller refers to the kernel by a name. This function binds the name to the kernel's address.
-    This must happen before numba loads a caller from the cache. Therefore this function is called
-    at the top level of a module, and the modules of all callers import this module.
+    Without the stand-in, LLVM would compile the kernel again as part of each caller. LLVM must
+    know the kernel's address before numba loads a caller from the cache. Therefore `by_address` is
+    called at the top level of a module, not inside a function.
     """
     name = f"{function.py_func.__module__}.{function.py_func.__name__}"
     llvmlite.binding.add_symbol(name, compiled(function).address)
@@ -136,7 +136,7 @@ def by_address(function):
 
 @intrinsic
 def call_at(typing, address, numbers):
-    """Call the kernel at the integer `address`. Its argument is the float64 pointer `numbers`."""
+    """Call the kernel at a memory address, an integer, with the pointer `numbers` as argument."""
 
     def generate(context, builder, signature, arguments):
         address, numbers = arguments
@@ -157,7 +157,7 @@ class Progress(event.Listener):
         if _is_own(started):
             if self.depth == 0:
                 self.begun, self.collecting = time.perf_counter(), gc.isenabled()
-                # Garbage collection would take a fifth of the compilation time and find little.
+                # Garbage collection would take a fifth of the compilation time, for little gain.
                 gc.disable()
             self._change(1)
 

@@ -3,8 +3,8 @@
     Z1'' = (F + U W^2) cos(W T) - h Z1' - omega_l^2 Z1 - k3 Z1^3
 
 This is equation (3) of the paper with three further parameters: k3, F and U. Some functions yield
-lines of Python code. `instances` makes kernels from the lines. docs/explanation/series.md explains
-the recurrence of the Taylor coefficients, and the names in the lines.
+lines of Python code, of which `instances` makes kernels. docs/explanation/series.md explains how
+each Taylor coefficient follows from earlier ones, and the names in the lines.
 """
 
 import math
@@ -30,8 +30,8 @@ from impact_damper.model.packed import (
 def forcing_amplitude(p, lane=0, lanes=1):
     """Return the amplitude F + U W^2 of the forcing per unit of primary mass.
 
-    `p` is a flat array of rows. Row k holds parameter k of each of `lanes` trajectories. The
-    returned amplitude belongs to the trajectory with the index `lane`.
+    `p` is a flat array with a row for each parameter. A row has one number for each of `lanes`
+    trajectories. `lane` is the index of the trajectory whose amplitude is returned.
     """
     frequency = p[FREQUENCY * lanes + lane]
     return p[FORCE * lanes + lane] + p[UNBALANCE * lanes + lane] * frequency * frequency
@@ -41,7 +41,7 @@ def forcing_amplitude(p, lane=0, lanes=1):
 def external_force(p, t):
     """Return the force of the excitation at the time t, divided by the primary mass.
 
-    With `fastmath=False` LLVM rounds the product and does not fuse it with a sum in the caller.
+    `fastmath=False` keeps LLVM from fusing this product with a sum in the caller.
     """
     return forcing_amplitude(p) * math.cos(p[FREQUENCY] * t)
 
@@ -68,10 +68,10 @@ def acceleration(p, y, t):
 def no_return(p):
     """Return the |Z1| beyond which an outward motion never comes back; infinity if k3 >= 0.
 
-    Let A be the amplitude of the forcing. Beyond the returned |Z1| a softening spring (k3 < 0)
-    pushes outward with at least A: if |Z1| > 2 omega_l/sqrt(-k3), its outward force
-    -k3 |Z1|^3 - omega_l^2 |Z1| is at least -3/4 k3 |Z1|^3, and if |Z1| > (4 A/(-3 k3))^(1/3),
-    -3/4 k3 |Z1|^3 is at least A. The contact forces of the loose mass are neglected.
+    At a large |Z1| a softening spring (k3 < 0) pushes outward. Where |Z1| > 2 omega_l/sqrt(-k3),
+    the outward force is at least 3/4 of the spring's cubic part -k3 |Z1|^3. Let A be the amplitude
+    of the forcing. Where |Z1| > (4 A/(-3 k3))^(1/3), 3/4 of the cubic part is at least A. The
+    larger of both limits is returned. Forces of the loose mass are neglected.
     """
     if p[CUBIC] >= 0.0:
         return math.inf
@@ -81,7 +81,7 @@ def no_return(p):
 
 @kernel_only
 def has_escaped(p, x, v):
-    """Return whether Z1 = x moves outward beyond `no_return`. NaN also gives True if k3 < 0."""
+    """Return whether Z1 = x is beyond `no_return` and moves outward. If k3 < 0, NaN gives True."""
     return p[CUBIC] < 0.0 and not (abs(x) <= no_return(p) or x * v <= 0.0)
 
 
@@ -102,13 +102,13 @@ def energy(p, y):
 def coefficients(at):
     """Yield the lines that load the coefficients of the spring's nonlinear terms.
 
-    `at(name)` returns the Python expression for the parameter `name`, one of `packed.NAMES`.
+    `at(name)` returns the code that reads the parameter `name`, one of `packed.NAMES`.
     """
     yield f"cubic = {at('CUBIC')}"
 
 
 def beginning(at):
-    """Yield the lines that compute names, such as `stiffness`, for the lines of `motion`."""
+    """Yield the lines that compute the variables, such as `stiffness`, which `motion` needs."""
     yield from coefficients(at)
     yield "double = 2.0 * cubic"
     yield "s0 = cubic * x0 * x0"
@@ -117,14 +117,14 @@ def beginning(at):
 
 
 def motion(order, phase, constants, across):
-    """Yield the lines that compute the series of a step up to `order`.
+    """Yield the lines that compute the Taylor series of a step up to `order`.
 
-    `phase` is "flight" or "contact". The lines read x0, x1, `push`, the names of `beginning`,
-    `cosine` = A cos(W T) and `sine` = A sin(W T), where A = F + U W^2. In contact the lines also
-    read q0, q1, `r1` and `mobility` = 1 + 1/rm. If `across` is true, the lines also read `draw`,
-    `base_cosine` and `base_sine`. `constants(k)` returns lines that set three coefficients:
-    h{k} = h/k and d{k} = D/k (h and D if k = 0), and e{k}, the coefficient of order k of the
-    forcing without its factor `cosine` or `sine`.
+    `phase` is "flight" or "contact". The lines read x0, x1, `push` (`templates.friction`), `cosine`
+    = (F + U W^2) cos(W T), `sine` = (F + U W^2) sin(W T), and the variables of `beginning`. In
+    contact the lines also read q0, q1, `r1` and `mobility` = 1 + 1/rm. If `across` is true, they
+    also read `draw`, `base_cosine` and `base_sine` (`templates.across`). `constants(k)` returns
+    lines that set h{k} = h/k and d{k} = D/k (h and D if k = 0), and e{k}, which is the coefficient
+    of order k of the forcing, divided by `cosine` or `sine`.
     """
     for k in range(order - 1):
         yield from constants(k)
@@ -145,12 +145,12 @@ def motion(order, phase, constants, across):
 def tangent(order, phase, constants):
     """Yield the lines that compute the series of a tangent up to `order`.
 
-    A tangent is a solution of the variational equations. x0, x1, ... and q0, q1, ... in the lines
-    are coefficients of the tangent. `squares` computes u0, u1, ... `motion` describes arguments.
+    A tangent is a solution of the variational equations. In these lines x0, x1, ... and q0, q1, ...
+    are coefficients of the tangent. u0, u1, ... come from `squares`. Arguments are as in `motion`.
     """
     for k in range(order - 1):
         yield from constants(k)
-        # The terms stand in the order in which their factors are computed.
+        # Terms whose factors are computed early come first.
         terms = [f"u{j} * x{k - j}" for j in sorted(range(1, k), key=lambda j: (max(j, k - j), j))]
         terms += [f"u{k} * x0"] if k > 0 else []
         yield f"c{k} = -{' - '.join([*terms, f'linear * x{k}'])}"
@@ -160,8 +160,8 @@ def tangent(order, phase, constants):
 def squares(count):
     """Yield the lines that compute the first `count` coefficients u0, u1, ... of 3 k3 x^2.
 
-    The lines need x0, x1, ... and the names of `coefficients`. Each product x[i] x[j] with i < j is
-    computed once and doubled.
+    3 k3 x^2 is the slope of the spring's nonlinear force at Z1 = x. The lines read x0, x1, ... and
+    the variables of `coefficients`.
     """
     yield "triple = 3.0 * cubic"
     yield "sextuple = 6.0 * cubic"
@@ -173,10 +173,10 @@ def squares(count):
 
 
 def _lower_squares(n):
-    """Yield lines that update s, the coefficients of k3 l^2, for a new term x[n] of a polynomial l.
+    """Yield lines that update the coefficients s0, s1, ... of k3 l^2.
 
-    The lines add 2 k3 x[n] x[j] to s[n+j] for each j < n, and set s[2n] = k3 x[n]^2. Each line that
-    begins with P updates two neighbours, s[j] and s[j+1] with an even j. y[n] is 2 k3 x[n].
+    The polynomial l receives a new term x[n]. The lines add 2 k3 x[n] x[j] to s[n+j] for each
+    j < n, and set s[2n] = k3 x[n]^2. y{n} is 2 k3 x[n]. P{j} is the pair s[j], s[j+1].
     """
     yield f"y{n} = double * x{n}"
     for j in range(n - n % 2, 2 * n, 2):
@@ -188,7 +188,7 @@ def _lower_squares(n):
 
 
 def _without_damping(k, drive):
-    """Yield lines that compute c[k] = g[k] + h/k a[k-1], k > 1. `drive` is the forcing's term."""
+    """Yield lines that compute c[k], which is g[k] without damping. `drive` is the forcing."""
     n, odd = k // 2, k % 2
     last = k - n - 1
     if odd and last % 2 and last > 1:
@@ -213,7 +213,7 @@ def _without_damping(k, drive):
 
 
 def _accelerations(k, phase, loose):
-    """Yield lines for g[k] and x[k+2], from c[k]. In contact: also for q[k+2], from `loose`[k]."""
+    """Yield lines that compute g[k] and x[k+2] from c[k], and in contact also q[k+2]."""
     a, b = (f"a{k - 1}", f"b{k - 1}") if k > 0 else ("x1", "q1")
     factor = 1 / ((k + 1) * (k + 2))
     yield f"g{k} = c{k} - h{k} * {a}"

@@ -1,10 +1,10 @@
-"""Generate modules with the integration step, for a number of lanes and two orders of the series.
+"""Generate Python modules that compute an integration step.
 
-Each lane holds one trajectory. A module contains the templates, which `branches` compiles, and
-kernels that compute Taylor series. Such a kernel is a loop over the lanes, compiled by
-`straight_lines`. With one lane the kernel works on numbers and pairs of numbers. With several lanes
-the kernel works on vectors, and needs a third of the time per trajectory. All numbers of a step
-stand in a flat array of rows. Each row has one number for each lane.
+A module is made for a number of lanes and for two orders of Taylor series, in flight and in
+contact. Each lane holds one trajectory. A module contains the templates, which `branches` compiles,
+and kernels that compute Taylor series, which `straight_lines` compiles. With several lanes a step
+takes a third of the time per trajectory. All numbers of a step stand in a flat array of rows. Each
+row has one number for each lane.
 """
 
 import importlib.util
@@ -33,15 +33,15 @@ from impact_damper.model.parameters import NONLINEAR
 # Orders of the Taylor series. With these orders the integration is fastest at medium tolerances.
 FLIGHT_ORDER = 18
 CONTACT_ORDER = 23
-# Groups of rows of a step, in this order:
+# Groups of rows in the array of a step, in this order:
 # packed.NAMES    the packed parameters
 # STATE           the state Z1, Z1', Z2, Z2' at the beginning of the step, afterwards at its end
 # STEP            SIDE, TIME, LONGEST and TOLERANCE are arguments; SIDE and LENGTH are results
 # SCRATCH, FREE   intermediate results
-# SERIES          coefficients of series; E, H and D are the same in all steps of a trajectory
-#   X: Z1   Q: depth Z2 -+ d0 in a wall   G: Z1'' without the force of the wall   H: DAMPING/k
-#   U: slope of the spring's nonlinear force   E: forcing without COSINE or SINE   D: DASHPOT/k
-# A tangent is a solution of the variational equations. Groups of its rows, in this order:
+# SERIES          Taylor coefficients; E, H and D are the same in all steps of a trajectory
+#   X: Z1   Q: depth in a wall, Z2 - SIDE d0   G: Z1'' without the wall's force   H: DAMPING/k
+#   U: slope of the spring's nonlinear force   E: forcing over COSINE or SINE   D: DASHPOT/k
+# A tangent is a solution of the variational equations. Groups of a tangent's rows, in this order:
 # STATE and KEPT, which is the tangent's Z2 while the loose mass sticks
 # TANGENT_SERIES  coefficients of the tangent's Z1 (DX) and of the tangent's depth (DQ)
 STATE = "Y0 Y1 Y2 Y3".split()
@@ -53,7 +53,7 @@ SCRATCH = (
     "DRAW BASE_COSINE BASE_SINE ACROSS MOST SWAYS SWAY SWAY_SLOPE SWAY_CURVE SWAY_JERK JERK_BOUND "
     "APART PUSH ROUGH SLIDE BEND STICKS STUCK HELD_Z2 LIMIT TURN"
 ).split()
-# Parameters that `friction.hold` replaces if the loose mass sticks. FREE keeps the originals.
+# Parameters that `friction.hold` changes if the loose mass sticks. FREE rows keep their old values.
 HELD = ["DAMPING", "STIFFNESS", *map(str.upper, NONLINEAR), "CONTACT_STIFFNESS", "DASHPOT"]
 FREE = [f"FREE_{name}" for name in HELD]
 SINGLE = list(packed.NAMES) + STATE + STEP + SCRATCH + FREE
@@ -66,15 +66,15 @@ from {branches.__name__} import bits, number, template
 from {equation.__name__} import forcing_amplitude, spring, spring_slope
 from {straight.__module__} import {straight.__name__}
 """
-# Largest number of sums of series that one kernel computes.
+# A kernel sums at most this many series.
 SUMS = 6
-# Coefficients of (cos x - 1)/x^2 and (sin x - x)/x^3 in powers of x^2.
+# Coefficients of x^0, x^2, x^4, ... in (cos x - 1)/x^2 (COSINES) and (sin x - x)/x^3 (SINES).
 COSINES = [(-1.0) ** k / math.factorial(2 * k) for k in range(1, 9)]
 SINES = [(-1.0) ** k / math.factorial(2 * k + 1) for k in range(1, 9)]
 
 
 def instance(lanes, flight_order=FLIGHT_ORDER, contact_order=CONTACT_ORDER):
-    """Return the module with the step for a number of lanes and two orders of the series."""
+    """Return the module for a number of lanes and for two orders, in flight and in contact."""
     name = f"impact_damper_step_{lanes}_{flight_order}_{contact_order}"
     if name in sys.modules:
         return sys.modules[name]
@@ -91,13 +91,13 @@ def instance(lanes, flight_order=FLIGHT_ORDER, contact_order=CONTACT_ORDER):
 
 
 def _source(writer):
-    """Return the source of a module: constants, kernels of the series, and the templates."""
+    """Return the source code of a module: constants, kernels for the series, and the templates."""
     constants = {
         "LANES": writer.lanes,
         "TANGENTS": writer.tangents,
         "FLIGHT_ORDER": writer.orders["flight"],
         "CONTACT_ORDER": writer.orders["contact"],
-        # Order of the first of three coefficients from which `step.predict_length` extrapolates.
+        # `step.predict_length` extrapolates from the coefficients EARLY, EARLY + 1 and EARLY + 2.
         "EARLY": 3 * (writer.orders["flight"] - 1) // 5 + 1,
         "SIZE": writer.rows["ROWS"] * writer.lanes,
         "TANGENT_SIZE": writer.rows["TANGENT_ROWS"] * writer.tangents,
@@ -109,7 +109,7 @@ def _source(writer):
     lines = "".join(f"{name} = {value}\n" for name, value in constants.items())
     templates = forcing, root_search, across, friction, contact, separation, step
     text = "\n\n".join([lines, writer.text(), *map(inspect.getsource, templates)])
-    # `template` wraps functions that `branches` compiles, so that numba's kernels can call them.
+    # `template` wraps each function of the templates so that kernels can call it.
     pattern = r"^def (\w+)\((a|a, d)\):$(?!\n    for i in range\(\d+\):)"
     for name, arguments in re.findall(pattern, text, re.MULTILINE):
         text += f"\n\ndef call_{name}({arguments}):\n    {name}({arguments})\n"
@@ -118,9 +118,9 @@ def _source(writer):
 
 
 def rows(flight_order, contact_order):
-    """Return the numbers of rows by their names. A series has the number of its first row.
+    """Return a dictionary from the name of a row to its index. A series begins at its index.
 
-    PARTS is the first row of partial sums. A step has ROWS rows, a tangent has TANGENT_ROWS rows.
+    Rows from the index PARTS on hold partial sums. A step has ROWS rows, a tangent TANGENT_ROWS.
     """
     length = max(flight_order, contact_order) + 1
     single = {name: number for number, name in enumerate(SINGLE)}
@@ -135,9 +135,9 @@ def rows(flight_order, contact_order):
 
 
 class Writer:
-    """Writes the kernels of the series for a number of lanes and the orders in flight and contact.
+    """Writes the source code of kernels that compute Taylor series.
 
-    If there is one lane, the trajectory has up to four tangents, otherwise each has one tangent.
+    With one lane the trajectory has up to four tangents. With more lanes each has one tangent.
     """
 
     def __init__(self, lanes, flight_order, contact_order):
@@ -147,18 +147,18 @@ class Writer:
         self.rows = rows(flight_order, contact_order)
 
     def at(self, row, k=0):
-        """Return the expression for a trajectory's entry in the k-th row after `row`."""
+        """Return the code for a trajectory's number in a row, k rows after the row named `row`."""
         index = (self.rows[row] + k) * self.lanes
         return f"a[{index} + i]" if self.lanes > 1 else f"a[{index}]"
 
     def at_tangent(self, row, k=0):
-        """Return the expression for a tangent's entry in the k-th row after `row`; "" is row 0."""
+        """Return the code for a tangent's number, k rows after the row named `row` ("": row 0)."""
         return f"d[{(self.rows.get(row, 0) + k) * self.tangents} + i]"
 
     def function(self, name, lines, tangent=False, first=(), side_by_side=4):
-        """Return the source of a kernel that executes `lines` for each lane.
+        """Return the source code of a kernel that executes `lines` for each lane.
 
-        Before `lines` the kernel executes the lines `first` on vectors of `side_by_side` numbers.
+        The kernel begins with the lines `first`, which work on vectors of `side_by_side` numbers.
         """
         arguments, lanes = ("a, d", self.tangents) if tangent else ("a", self.lanes)
         text, calls = "", ""
@@ -171,16 +171,16 @@ class Writer:
         return f"{text}def {name}({arguments}):\n{calls}"
 
     def moving(self, phase):
-        """Return the names of the unknown series: X for Z1, and in contact also Q for Z2 -+ d0."""
+        """Return the names of the unknown series: X for Z1, in contact also Q for the depth."""
         return "XQ" if phase == "contact" else "X"
 
     def constant_series(self):
-        """Return a kernel that fills the series that are the same in all steps of a trajectory."""
+        """Return a kernel for the series that are the same in all steps of a trajectory."""
         lines = (self._computed(k, "EHD") for k in range(max(self.orders.values()) - 1))
         return self.function("constant_series", self._stored(chain.from_iterable(lines), "EHD"))
 
     def _computed(self, k, names):
-        """Yield lines that compute coefficient k of the constant series in `names`, e.g. "EHD"."""
+        """Yield lines for coefficient k of constant series. `names` has their letters, "EHD"."""
         factor = f"{1 / k!r} * " if k > 1 else ""
         if "E" in names and k < 2:
             beginning = [f"w = {self.at('FREQUENCY')}", "e0 = 1.0"], ["ww = w * w", "e1 = -w"]
@@ -192,7 +192,7 @@ class Writer:
             yield f"d{k} = {factor}{self.at('DASHPOT')}"
 
     def _constants(self, phase, tangent):
-        """Return a function of k that returns the lines for coefficient k of the constant series.
+        """Return a function that takes k and returns lines for coefficient k of constant series.
 
         With one lane the lines load the coefficient. With several lanes the lines compute the
         coefficient, because the trajectory in a lane can change after each step.
@@ -203,9 +203,9 @@ class Writer:
         return lambda k: [f"{name.lower()}{k} = {self.at(name, k)}" for name in names]
 
     def series(self, phase, across=False):
-        """Return a kernel that fills the series of a step: X and G, and in contact also Q.
+        """Return a kernel that computes the series of a step: X and G, in contact also Q.
 
-        If `across` is true, Q includes the acceleration across (template `across`).
+        If `across` is true, Q includes gravity, friction and a moving base (template `across`).
         """
         lines = [
             f"cosine = {self.at('COSINE')}",
@@ -235,7 +235,7 @@ class Writer:
         return self.function(name, self._stored(lines, f"{self.moving(phase)}G"))
 
     def squares(self, phase):
-        """Return a kernel that computes the series U from the series X. The tangents need U."""
+        """Return a kernel that computes from the series X the series U, which tangents need."""
         count = self.orders[phase] - 1
         lines = list(equation.coefficients(self.at))
         lines += [f"x{k} = {self.at('X', k)}" for k in range(count)]
@@ -260,13 +260,13 @@ class Writer:
         return self.function(f"{phase}_tangent_series", lines, tangent=True)
 
     def _factors(self, phase):
-        """Yield lines that load the factors `r1` and `mobility` in contact; no lines in flight."""
+        """Yield lines that load the factors `r1` and `mobility` in contact. Flight needs none."""
         if phase == "contact":
             yield f"r1 = {self.at('CONTACT_STIFFNESS')}"
             yield f"mobility = 1.0 + {self.at('INVERSE_MASS_RATIO')}"
 
     def _stored(self, lines, names, tangent=False):
-        """Yield `lines`. Add lines that store each coefficient of the series named in `names`."""
+        """Yield `lines`, and further lines that store the coefficients of the series in `names`."""
         for line in lines:
             yield line
             target = line.split(" = ")[0]
@@ -281,10 +281,10 @@ class Writer:
 
 
 class Source(Writer):
-    """Writes the kernels that the templates call: kernels for series, their sums, and bounds."""
+    """Writes all kernels that the templates call, for series, sums of series, and bounds."""
 
     def text(self):
-        """Return the source of all kernels, with their imports."""
+        """Return the source code of all kernels, with their imports."""
         slope = {"Z1": "X", "Z1_SLOPE": "X'"}
         curve = {"Z1_CURVE": "G"}
         jerk = curve | {"Z1_JERK": "G'"}
@@ -304,24 +304,24 @@ class Source(Writer):
             self.sums("flight_early", "flight", "T", slope | curve, terms=early),
             self.sums("flight_curve", "flight", "T", jerk),
             self.sums("contact_values", "contact", "T", slope | jerk | depth, self._wall()),
-            # Upper bounds on |g|, |g'| and |g''|, where g is Z1'' without the force of the wall.
+            # Upper bounds on |g|, |g'| and |g''|, where g is Z1'' without the wall's force.
             self.sums("flight_bound", "flight", "LENGTH", bound),
             self.sums("flight_jerk", "flight", "LENGTH", {"JERK_BOUND": "|G'|"}),
             self.sums("flight_snap", "flight", "T", {"SNAP": "|G''|"}),
             self.sums("contact_jerk", "contact", "LENGTH", {"Z1_JERK": "|G'|"}),
             self.sums("contact_bound", "contact", "LENGTH", bound, self._tail("contact")),
-            # Upper bound on the change of Z1': the sum of the moduli of all terms but the first.
+            # Upper bound on the change of Z1': sum of the moduli of its terms, without the first.
             self.sums("flight_change", "flight", "T", {"CHANGE": "|X'|"}, changed, begin=2),
         ]
         return f"{IMPORTS}\n\n" + "\n\n".join(functions)
 
     def sums(self, name, phase, time, results, then=(), begin=0, terms=99):
-        """Return the source of a kernel that sums series at the time in the row `time`.
+        """Return the source code of a kernel that sums series at the time in the row `time`.
 
-        `results` maps the row for a sum to the summed series: "X" is the series X, "X'" is the
-        derivative of X, "|X|" has the moduli of the terms of X. A sum begins at the order `begin`
-        and has at most `terms` terms. Then the kernel executes the lines `then`. A sum has four
-        partial sums of every fourth term, because the processor computes four sums at once.
+        Keys of `results` are rows for the sums, values are series: "X" means the series X, "X'" the
+        derivative of X, and "|X|" the moduli of the terms of X. A sum begins at the order `begin`
+        and has at most `terms` terms. The kernel ends with the lines `then`. For speed a sum is
+        computed as four partial sums, each of which has every fourth term.
         """
         lines = [*self._time(time, phase)]
         first = list(lines) if self.lanes == 1 else []
@@ -358,7 +358,7 @@ class Source(Writer):
         return self.function("circular_series", lines)
 
     def _coefficient(self, series, *orders):
-        """Return the expression for a coefficient of a series, or for a vector of coefficients."""
+        """Return the code for a coefficient of a series, or for a vector of coefficients."""
         number = self.at(series.strip("'|"), orders[0])
         if len(orders) > 1:
             number = _widened(number)
@@ -370,7 +370,7 @@ class Source(Writer):
     def _wall(self):
         """Yield lines for the second (CURVE) and third (JERK) derivatives of Z1 and of the depth.
 
-        Before these lines Z1_CURVE and Z1_JERK must hold g and g', with g = Z1'' without the wall.
+        Before these lines Z1_CURVE and Z1_JERK hold g and g'. g is Z1'' without the wall's force.
         """
         mobility = f"(1.0 + {self.at('INVERSE_MASS_RATIO')})"
         for force, depth_row, rate, derivative in (
@@ -385,7 +385,7 @@ class Source(Writer):
             yield f"{z1} -= {force}"
 
     def _tail(self, phase):
-        """Yield lines that store in TAIL the largest modulus of each velocity's last two terms."""
+        """Yield lines that store in TAIL how large the last two terms of the velocities are."""
         last = self.orders[phase]
         yield "last = 0.0"
         for row in self.moving(phase):
@@ -417,26 +417,26 @@ class Source(Writer):
 
 
 def _widened(number):
-    """Return the expression for the vector that begins at the array entry `number`."""
+    """Return the code for a vector that begins at an array entry: "a[3 + i]" for "a[3]"."""
     return number.replace("]", " + i]")
 
 
 def _constants(*numbers):
-    """Return the expression for a constant, or for a vector of constants."""
+    """Return the code for a constant, or for a vector of constants."""
     return f"{numbers}[i]" if len(numbers) > 1 else repr(numbers[0])
 
 
 def _paired(c, result):
-    """Return a line that assigns the sum of eight terms c[k] u^k (Estrin's scheme, v = u^2)."""
+    """Return a line that computes c[0] + c[1] u + ... + c[7] u^7 (Estrin's scheme, v = u^2)."""
     low, high = (f"({a} + {b} * u) + ({c} + {d} * u) * v" for a, b, c, d in (c[:4], c[4:]))
     return f"{result} = ({low}) + ({high}) * (v * v)"
 
 
 def _sum(c, result, parts, done):
-    """Yield lines that sum the terms c[k] t^k in four partial sums of every fourth term.
+    """Yield lines that sum the terms c[k] t^k as four partial sums, each of every fourth term.
 
-    `parts` are the partial sums of the first `done` terms. The lines add further terms in rising
-    order, because a step computes the last coefficients last.
+    `parts` are the partial sums of the first `done` terms. The lines add the other terms in rising
+    order, because the highest coefficients are computed last.
     """
     for j in range(4):
         yield f"part{j} = {parts[j]}"

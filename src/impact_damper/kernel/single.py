@@ -23,7 +23,7 @@ _ONE = instances.instance(1)
 constant_series, find_sway = _ONE.constant_series, _ONE.find_sway
 flight_step, contact_step = by_address(_ONE.flight_step), by_address(_ONE.contact_step)
 SIZE, TANGENT_SIZE, COLUMNS = _ONE.SIZE, _ONE.TANGENT_SIZE, _ONE.TANGENTS
-# Index in a workspace at which the numbers of the tangents begin. It is a multiple of CACHE_LINE.
+# Index in a workspace at which the tangents' numbers begin, a multiple of CACHE_LINE.
 BEHIND = -(-SIZE // CACHE_LINE) * CACHE_LINE
 SIDE, TIME, LONGEST = _ONE.SIDE, _ONE.TIME, _ONE.LONGEST
 TOLERANCE, LENGTH = _ONE.TOLERANCE, _ONE.LENGTH
@@ -31,18 +31,18 @@ PARAMETERS, STATE, KNOWN, X, Q = _ONE.FREQUENCY, _ONE.Y0, _ONE.KNOWN, _ONE.X, _O
 T, SWAY, SWAY_SLOPE, STUCK = _ONE.T, _ONE.SWAY, _ONE.SWAY_SLOPE, _ONE.STUCK
 DRAW, BASE_COSINE, BASE_SINE, E = _ONE.DRAW, _ONE.BASE_COSINE, _ONE.BASE_SINE, _ONE.E
 FLIGHT_ORDER, CONTACT_ORDER = _ONE.FLIGHT_ORDER, _ONE.CONTACT_ORDER
-# Indices in a workspace at which the tangents' series of Z1 (DX) and of the depth (DQ) begin. Each
-# coefficient has COLUMNS numbers, one for each tangent.
+# Indices in a workspace at which the tangents' series begin, for Z1 (DX) and for the depth in a
+# wall (DQ). Each coefficient has COLUMNS numbers, one for each tangent.
 _ROWS = rows(FLIGHT_ORDER, CONTACT_ORDER)
 DX, DQ = (BEHIND + _ROWS[name] * COLUMNS for name in ("DX", "DQ"))
 
-# `extremum` divides an interval into PIECES pieces, and expects at most one turning point in each.
+# `extremum` divides an interval into PIECES pieces, and looks for one maximum in each piece.
 PIECES = 8
 
 
 @kernel
 def workspace():
-    """Return a workspace: an array for all numbers of a step of a trajectory and its tangents."""
+    """Return an array with room for all numbers of a step, for a trajectory and its tangents."""
     return aligned(BEHIND + TANGENT_SIZE)
 
 
@@ -66,10 +66,10 @@ def polynomial(c, order, t):
 
 @kernel
 def extremum(c, order, length, start):
-    """Return the largest |polynomial| over [0, length], or `start` if `start` is larger.
+    """Return the largest modulus of a polynomial over [0, `length`], or `start` if it is larger.
 
-    |polynomial| exceeds the larger of its two values at 0 and `length` by at most length^2/8 times
-    the largest |second derivative|. Turning points are sought only if this bound exceeds `start`.
+    c[0] to c[`order`] are the coefficients of the polynomial. Turning points are sought only if an
+    upper bound on the modulus exceeds `start`.
     """
     farthest = 0.0
     for k in range(order, 0, -1):
@@ -89,7 +89,7 @@ def extremum(c, order, length, start):
         t = length * piece / PIECES
         value, slope = polynomial(c, order, t)
         best = max(best, abs(value))
-        # The condition: |polynomial| grows at the beginning of the piece and falls at its end.
+        # |polynomial| grows at the beginning of the piece and falls at its end.
         if slope * fall < 0.0 and value * slope < 0.0:
             turn = turning_time(c, order, t - length / PIECES, t, fall, slope)
             best = max(best, abs(polynomial(c, order, turn)[0]))
@@ -99,7 +99,7 @@ def extremum(c, order, length, start):
 
 @kernel_only
 def turning_time(c, order, begin, end, first, last):
-    """Return the time of slope 0 between `begin` (slope `first`) and `end` (slope `last`)."""
+    """Return the time of slope 0. The slope at `begin` is `first`, the slope at `end` is `last`."""
     t = begin + (end - begin) * first / (first - last)
     for _ in range(4):
         _, slope = polynomial(c, order, t)
@@ -114,7 +114,7 @@ def turning_time(c, order, begin, end, first, last):
 
 @kernel_only
 def write_trajectory(p, y, side, tolerance, a):
-    """Write a trajectory into a workspace. The indices do not depend on the orders of series."""
+    """Write a trajectory into a workspace for Taylor series of any order."""
     for i in range(packed.COUNT):
         a[PARAMETERS + i] = p[i]
     for i in range(4):
@@ -126,7 +126,7 @@ def write_trajectory(p, y, side, tolerance, a):
 
 @kernel_only
 def load(p, y, side, tolerance, a):
-    """Write a trajectory into a workspace. If W, h or D changes, compute the constant series."""
+    """Write a trajectory into a workspace. Compute constant series again if W, h or D is new."""
     kept = True
     for i in (FREQUENCY, DAMPING, DASHPOT):
         kept = kept and a[PARAMETERS + i] == p[i]
@@ -137,7 +137,7 @@ def load(p, y, side, tolerance, a):
 
 @kernel_only
 def step_loaded(t, longest, a):
-    """Do one step of a trajectory. Return the step's length, and `side` at the end of the step."""
+    """Do one step of a loaded trajectory. Return the step's length and new `side`."""
     a[TIME] = t
     a[LONGEST] = longest
     if a[SIDE] == 0.0:
@@ -158,9 +158,9 @@ def unload(y, a):
 def step(p, y, side, t, longest, tolerance, work):
     """Integrate one step, at most up to the first event and at most over the time `longest`.
 
-    The step begins at the time t with the wall `side` in contact. The state at the step's end
-    replaces y (4,). Return the step's length, and `side` at its end. `work` is a `workspace()`. It
-    receives the series of Z1 from index X on, in contact also the series of Z2 -+ d0 from Q on.
+    The step begins at the time t in the state y (4,). The state at the end replaces y. Return the
+    step's length, and `side` at the step's end. `work` is a `workspace()`. Afterwards it has the
+    series of Z1 at index X, and in contact the series of the depth Z2 - `side` d0 at index Q.
 
     If the motion has escaped (`equation.no_return`), the returned length is `longest`, because
     steps on the way to infinity become ever shorter. The true length is `work[LENGTH]`.
@@ -174,7 +174,7 @@ def step(p, y, side, t, longest, tolerance, work):
 
 @kernel_only
 def state_in_step(work, side, y, t):
-    """Return the state at time t of the step in `work`. At t = 0 the step begins in the state y."""
+    """Return the state at time t of the last step in `work`. At t = 0 the state was y."""
     a = pointer(work)
     order = FLIGHT_ORDER if side == 0 else CONTACT_ORDER
     x, v = polynomial(work[X:], order, t)
@@ -193,7 +193,7 @@ def state_in_step(work, side, y, t):
 
 @kernel_only
 def series_of_loose_mass(work, side, y, c):
-    """Fill c with the Taylor coefficients of Z2 in a step that began in y. Return their order."""
+    """Fill c with the Taylor series of Z2 in the last step, which began in y. Return the order."""
     a = pointer(work)
     order = FLIGHT_ORDER if side == 0 else CONTACT_ORDER
     for k in range(order + 1):

@@ -1,8 +1,8 @@
 """Find the source files on which a module depends, by following its imports.
 
-The name of the folder of compiled kernels is a digest of such files. The workflow runs a job again
-if a file on which the job depends was edited. numba and NumPy load slowly. This module does not
-import them, because every dry run of the workflow imports this module.
+A digest of these files names the folder of compiled kernels. The workflow runs a job again if a
+file on which the job depends was edited. This module does not import numba and NumPy, which load
+slowly, because every dry run of the workflow imports this module.
 """
 
 import ast
@@ -35,7 +35,7 @@ def sources(*paths) -> set:
 def _imports(path, packages):
     """Return the files of `packages` that a Python file imports directly.
 
-    For `import a.b.c` return the file of a.b.c, but not the `__init__.py` of a or of a.b.
+    For `import a.b.c` return the file of a.b.c, but not the files `__init__.py` of a and a.b.
     """
     # Only imports from `packages` are parsed, because parsing whole files takes much longer.
     statement = re.compile(
@@ -57,7 +57,7 @@ def _imports(path, packages):
 
 @cache
 def module_file(name) -> Path:
-    """Return the file of a module. `name` is the name of the module or of an object in it."""
+    """Return the file of the module `name`, or of the module in which the object `name` is."""
     path = ROOT.joinpath(*name.split("."))
     for place in (path, path.parent):
         for file in (place.with_suffix(".py"), place / "__init__.py"):
@@ -68,7 +68,7 @@ def module_file(name) -> Path:
 
 @cache
 def kernel_digest(*paths) -> str:
-    """Return a digest of numba's version and all files on which kernels in `paths` can depend."""
+    """Return a digest of numba's version and of all files on which kernels of `paths` depend."""
     digest = hashlib.sha256(version("numba").encode())
     for path in sorted(sources(*paths, *KERNEL.rglob("*.py"))):
         name = path.relative_to(ROOT) if path.is_relative_to(ROOT) else path

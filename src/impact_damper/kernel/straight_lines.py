@@ -1,8 +1,8 @@
-"""Compile arithmetic without branches ("straight lines"). numba's type inference is bypassed.
+"""Compile arithmetic without branches ("straight lines"), without numba's slow type inference.
 
-A Taylor series of a step has thousands of operations. numba's type inference takes a millisecond
-for each operation. Each lane holds one trajectory, and all lanes execute the same lines. With one
-lane, one instruction operates on a pair of numbers.
+The Taylor series of a step take thousands of operations. numba's type inference needs a millisecond
+for each. Each lane holds one trajectory, and all lanes execute the same lines. With one lane, one
+instruction can operate on two numbers, a pair.
 """
 
 import ast
@@ -37,7 +37,7 @@ def straight(function):
 
 
 def write(function, builder, pointers):
-    """Write the LLVM code of a call of `function` (see `straight`) with `pointers` as arguments."""
+    """Write the LLVM code of a function decorated with `straight`. `pointers` are its arguments."""
     lines = _Lines(builder, function)
     (loop,) = lines.tree.body
     lanes = loop.iter.args[0].value
@@ -98,7 +98,7 @@ class _Lines(Body):
     def visit_BinOp(self, node):
         """Return a sum, difference, product or quotient.
 
-        a*b + c becomes fmuladd(a, b, c). If both terms are products, the right product is fused.
+        a*b + c becomes fmuladd(a, b, c), and a*b + c*d becomes fmuladd(c, d, a*b).
         """
         kind, left, right = type(node.op), node.left, node.right
         if kind in (ast.Add, ast.Sub) and is_product(right):
@@ -134,7 +134,7 @@ class Arithmetic:
         return ir.Constant(self.type, value if self.width == 1 else [value] * self.width)
 
     def in_all_lanes(self, value):
-        """Return a number that has the value of the double `value` in all lanes."""
+        """Return a number that is equal to the double `value` in all lanes."""
         return value if self.width == 1 else self._repeated(value, self.width)
 
     def pair(self, first, second):
