@@ -20,16 +20,16 @@ from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator, describe
 from impact_damper.model.units import UNITLESS, Scales
 
-# STATE: kind of each component Z1, Z1', Z2, Z2' of a state. STATE_UNITS: SI units of a state.
+# Physical quantity of each component Z1, Z1', Z2, Z2' of a state. STATE_UNITS: their SI units.
 STATE = ("displacement", "velocity", "displacement", "velocity")
 STATE_UNITS = "m, m/s, m, m/s"
 FARTHEST_STATE = dict(zip(STATE, (FARTHEST, FASTEST) * 2, strict=True))
-# Names of the coordinates of datasets that hold the forcing phase W T of a state.
+# Dataset coordinates that store the forcing phase W T at which a state is given.
 PHASES = ("state_phase", "orbit_phase")
 
 
 class Model(NamedTuple):
-    """A dimensionless system with or without a damper; for a machine also the SI values."""
+    """A dimensionless oscillator and its damper. `machine` is the `Machine` that was given."""
 
     oscillator: Oscillator
     damper: Damper | None
@@ -43,19 +43,19 @@ class Model(NamedTuple):
         return self.oscillator.scales
 
     def pack(self, frequency=None) -> np.ndarray:
-        """Return the packed parameters at a frequency W, by default the model's frequency."""
+        """Return the parameters at a frequency W (by default the model's) as an array."""
         return pack(self.oscillator, self.damper, frequency or self.frequency)
 
     def describe(self, *others) -> dict:
-        """Return the dimensionless parameters of the model and of the dataclasses `others`."""
+        """Return a dictionary of dimensionless parameters, also from the dataclasses `others`."""
         found = describe(self.oscillator, self.damper, *others)
         return found if self.frequency is None else found | {"frequency": self.frequency}
 
 
 def read_system(system, damper=None, *, needs_damper=False) -> Model:
-    """Return the model of `system` and `damper`. If `needs_damper`, a damper of None is an error.
+    """Check `system` and `damper`, and return their `Model`. The damper may be None.
 
-    Raise TypeError for a wrong type, ValueError if the damper does not fit the machine.
+    If `needs_damper`, None raises TypeError. A damper that does not fit raises ValueError.
     """
     if isinstance(system, Machine):
         if damper is None and not needs_damper:
@@ -68,12 +68,12 @@ def read_system(system, damper=None, *, needs_damper=False) -> Model:
         raise TypeError(f"system = {shown(system)}: must be an Oscillator or a Machine")
     if not isinstance(damper, Damper) and (needs_damper or damper is not None):
         raise TypeError(f"damper = {shown(damper)}: must be a Damper")
-    # If `system` is an Oscillator, even one made by a machine, all arguments are dimensionless.
+    # With an Oscillator all arguments are dimensionless, even if a Machine made the Oscillator.
     return Model(replace(system, scales=UNITLESS), damper)
 
 
 def read_forced(system, damper, frequency, *, needs_damper=False) -> Model:
-    """Return the model of `system` and `damper` at a frequency, in Hz for a machine."""
+    """Return the `Model` at a forcing frequency, which is given as W, or in Hz for a machine."""
     model = read_system(system, damper, needs_damper=needs_damper)
     own = model.scales.read("frequency", frequency, "frequency", **FREQUENCY_RANGE)
     return model._replace(frequency=own)
@@ -96,20 +96,20 @@ def read_swept_damper(system, damper, frequency) -> Model:
 
 
 def read_numbers(scales, name, values, kind="number", **bounds) -> np.ndarray:
-    """Return a number or a sequence as a dimensionless array; `bounds` are dimensionless too."""
+    """Return a number or a sequence as a dimensionless array. `bounds` are dimensionless too."""
     pairs = _numbered(values)
     return np.array([scales.read(f"{name}[{i}]", value, kind, **bounds) for i, value in pairs])
 
 
 def _numbered(values):
-    """Return pairs (position, value); values from a dataset or from pint keep their units."""
+    """Return pairs (index, value). Values from a dataset or from pint keep their units."""
     if isinstance(values, (list, tuple)) or getattr(values, "ndim", 0) == 1:
         return enumerate(values)
     return enumerate(np.atleast_1d(values) if not hasattr(values, "units") else [values])
 
 
 def read_increasing(scales, name, values, kind="number", count=1, **bounds) -> np.ndarray:
-    """Return increasing numbers as a dimensionless array; fewer than `count` are an error."""
+    """Return a dimensionless array. It must increase, and have at least `count` values."""
     numbers = read_numbers(scales, name, values, kind, **bounds)
     if len(numbers) < count or np.any(np.diff(numbers) <= 0):
         given = shown(list(getattr(values, "values", values)))
@@ -133,7 +133,7 @@ def read_span(scales, name, span, kind, **bounds) -> tuple[float, float]:
 
 
 def read_radius(scales, radius, whole_gap=False) -> float | None:
-    """Return the dimensionless radius of the ball of random starts, or None without a radius."""
+    """Return the dimensionless radius of the ball in which random starts lie; None stays None."""
     if radius is None:
         if whole_gap:
             raise ValueError("radius = None: must be given with whole_gap; 0 for a machine at rest")
@@ -149,7 +149,7 @@ def read_pair(scales, name, values) -> np.ndarray:
 
 
 def _components(scales, name, values, kinds, words):
-    """Return dimensionless displacements and velocities; an error says "must be" and `words`."""
+    """Return dimensionless displacements and velocities. The error message contains `words`."""
     numbered = list(_numbered(values))
     if len(numbered) != len(kinds):
         raise ValueError(f"{name} = {shown(values)}: must be {words}")
@@ -166,12 +166,12 @@ def read_state(model, state) -> np.ndarray:
     """Return the argument `state` of a public function as Z1, Z1', Z2, Z2', shape (4,).
 
     Without a damper `state` may be Z1 and Z1' only; then Z2 = Z1 and Z2' = Z1'. Warn the user if
-    the penetration of a wall exceeds the clearance.
+    the loose mass is deeper in a wall than the clearance.
     """
     scales, damper = model.scales, model.damper
     if hasattr(state, "coords"):
         units, expected = state.attrs.get("units"), STATE_UNITS if scales.si else "1"
-        # in a dataset of one motion, the state has further dimensions of length 1
+        # In a dataset of one motion the state may have extra dimensions of length 1.
         state = np.squeeze(state.values)
         if units not in (None, expected):
             wanted = f"in {STATE_UNITS}, and is" if scales.si else "dimensionless, and is in"
@@ -208,10 +208,10 @@ def carried_phase(state):
 
 
 def read_start(model, state, start) -> float:
-    """Return the time T of a state, from the argument `start` of a public function.
+    """Return the time T at which a motion starts, from the argument `start` of a function.
 
     If `start` is None, T is the phase stored with the state (`carried_phase`) divided by W, or 0 if
-    no phase is stored. A `start` at another phase is an error.
+    no phase is stored. A `start` whose phase W T differs from the stored phase is an error.
     """
     phase, frequency = carried_phase(state), model.frequency
     if start is None:

@@ -1,4 +1,4 @@
-"""Ranges of parameters and arguments, and checks of values. Within the ranges every run ends.
+"""Allowed ranges of parameters and arguments, and checks. Within the ranges every run ends.
 
 A range is a dictionary of keyword arguments of `check_number` or `check_count`.
 """
@@ -22,9 +22,9 @@ CLEARANCE_RANGE = {"least": 1e-6, "most": 1e3}
 RESTITUTION_RANGE = {"least": 0.05, "most": 1.0, "why": "below, the dashpot nears critical damping"}
 AMPLITUDE_RANGE = {"least": 0.0, "most": 1e6}
 STIFFNESS_RANGE = {"least": 1e-6, "most": 1e9}
-# Largest natural frequency of the contact divided by the forcing frequency.
+# Largest allowed ratio between the natural frequency of the contact and the forcing frequency.
 MOST_STIFF = 1e6
-# RADIUS_RANGE: radius of the ball of random starts. MOST_RADIUS: largest radius/clearance.
+# Radius of the ball in which random starts lie. MOST_RADIUS: its largest ratio to the clearance.
 RADIUS_RANGE = {"above": 0.0, "most": 1e3}
 MOST_RADIUS = 1e3
 # Bounds of the fields of `settling.Settling`.
@@ -33,21 +33,21 @@ PATIENCE_RANGE = {"least": 100, "most": 10**7, "why": "motions rarely settle in 
 LIMIT_RANGE = {"least": 100, "most": 10**8}
 WATCHED_RANGE = {"least": 1, "most": 10**6}
 FURTHER_RANGE = {"least": 0, "most": 10**7}
-# Largest number of runs in one call of a function. The results of all runs are in memory.
+# Largest number of runs in one call of a function. Memory must hold the results of all runs.
 MOST_RUNS = 10**6
 RUNS_RANGE = {"least": 1, "most": MOST_RUNS}
-# PERIODS_RANGE: cycles in a run. LIFETIME_RANGE: cycles in a run that measures the life of chaos.
+# PERIODS_RANGE: cycles in a run. LIFETIME_RANGE: the same, for runs that show if chaos ends.
 PERIODS_RANGE = {"least": 1, "most": 10**6}
 LIFETIME_RANGE = {"least": 100, "most": 10**7}
 SEED_RANGE = {"least": 0, "most": 2**63 - 1}
-# Largest |displacement| and |velocity| of a start. Beyond them, computing a cycle takes minutes.
+# Largest |displacement| and |velocity| of a start. With larger ones a cycle takes minutes to run.
 FARTHEST, FASTEST = 1e3, 1e6
 # Highest harmonic N of a harmonic balance. Memory grows as N^2, and computing time as N^3.
 HARMONIC_RANGE = {"least": 1, "most": 2**14}
 PACKAGE = f"{__name__.partition('.')[0]}."
 # Number of points of a grid.
 POINTS_RANGE = {"least": 2, "most": 10**5}
-# Tolerance of an integrator in a comparison of integrators.
+# Range of the tolerance when integrators are compared.
 METHOD_TOLERANCE_RANGE = TOLERANCE_RANGE | {"most": 0.1}
 
 
@@ -60,7 +60,7 @@ def warn(text) -> None:
 
 
 def unlabelled(name, value):
-    """Return a value, or the number in a 0-dimensional array. Units except radian are an error."""
+    """Return the number in a 0-dimensional array, or any other value unchanged."""
     if getattr(value, "ndim", None) != 0 or not hasattr(value, "item"):
         return value
     units = getattr(value, "attrs", {}).get("units", "1")
@@ -80,7 +80,7 @@ def check_number(
     """Return `value` as a float, or raise an error if it is not allowed.
 
     Raise TypeError for a value that is no real number, such as True. Raise ValueError if the value
-    is not finite or out of bounds; the message has `given` (by default the value) and `why`.
+    is not finite, or is out of bounds. The message shows `given` in place of the value, if any.
     """
     value = unlabelled(name, value)
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
@@ -110,7 +110,7 @@ def range_words(unit="", *, above=None, least=None, most=None, why="") -> list:
 
 
 def check_count(name, value, *, least=1, most=10**9, why=""):
-    """Return `value` as an int; an error if it is no whole number from `least` to `most`."""
+    """Return `value` as an int. It must be a whole number from `least` to `most`."""
     value = unlabelled(name, value)
     if isinstance(value, bool) or not isinstance(value, numbers.Integral):
         raise TypeError(f"{name} = {shown(value)}: must be a whole number")
@@ -138,9 +138,9 @@ def nearest(name, known) -> str:
 
 
 def names_arguments(function):
-    """Decorate a public function or class: errors for wrong arguments then list all known names.
+    """Decorate a public function or class: errors about wrong arguments then list all arguments.
 
-    The docstring of a dataclass gets a list of the fields that have a `meaning`.
+    The docstring of a dataclass also gets a list of its fields, with the meaning of each.
     """
     call = function.__init__ if inspect.isclass(function) else function
     signature = inspect.signature(call)

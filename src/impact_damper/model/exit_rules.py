@@ -1,11 +1,11 @@
-"""The two rules for the end of a contact, and the damping that causes a given restitution.
+"""The two rules for the end of a contact, and the damping ratio that gives a restitution.
 
-Without other forces the penetration u of a wall obeys u'' + 2 z u' + u = 0. The time is multiplied
-by the natural frequency, z is the damping ratio, and u + 2 z u' is the force of the wall. Under
-`zero_penetration`, the paper's rule, a contact ends when u = 0, and equation (25) gives z. Just
-before the end a damped wall pulls. Under `no_tension` a contact ends when the force falls to 0: if
-z = sin(A), the restitution is exp(-(pi - 2 A) tan A) (Schwager and Poeschel, Physical Review E 78,
-2008, 051304); if z = cosh(B) > 1, the restitution is exp(-2 B coth B).
+During a contact u'' + 2 z u' + u = 0, if no other forces act. u is the penetration of the wall, z
+the damping ratio, u + 2 z u' the force of the wall. Time is multiplied by the natural frequency.
+By `zero_penetration`, the paper's rule, a contact ends when u = 0. Just before, the force pulls if
+z > 0. Equation (25) gives z. By `no_tension` a contact ends when the force falls to 0. If z < 1,
+the restitution is then exp(-(pi - 2 A) tan A) with z = sin(A) (Schwager and Poeschel, Physical
+Review E 78, 2008, 051304). If z > 1, it is exp(-2 B coth B) with z = cosh(B).
 """
 
 import math
@@ -17,7 +17,7 @@ CRITICAL = 1e-6
 
 
 def restitution(ratio) -> float:
-    """Return the restitution under `no_tension` for a damping ratio z."""
+    """Return the restitution for a damping ratio z, by the rule `no_tension`."""
     if abs(ratio - 1) < CRITICAL:
         return math.exp(-2)
     if ratio < 1:
@@ -29,7 +29,7 @@ def restitution(ratio) -> float:
 
 @cache
 def damping_ratio(restitution_, rule=ZERO_PENETRATION) -> float:
-    """Return the damping ratio z that gives a restitution under an exit rule."""
+    """Return the damping ratio z that gives a restitution, by an exit rule."""
     logarithm = math.log(1 / restitution_)
     if rule == ZERO_PENETRATION or not logarithm:
         return logarithm / math.hypot(math.pi, logarithm)

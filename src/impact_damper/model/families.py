@@ -1,4 +1,4 @@
-"""One-parameter families of systems, for the continuation of branches of periodic orbits."""
+"""Systems in which one parameter varies, to follow branches of periodic orbits."""
 
 from dataclasses import replace
 
@@ -9,18 +9,18 @@ from impact_damper.model.bounds import FREQUENCY_RANGE, nearest, shown
 from impact_damper.model.packed import FORCE, UNBALANCE, pack
 from impact_damper.model.parameters import Damper, Oscillator
 
-# PARAMETERS: dataclass of each parameter that can vary along a branch; None for the frequency. The
-# coordinate along a branch is the parameter if LINEAR has its name, otherwise its logarithm.
+# PARAMETERS: the parameters that can vary along a branch, and the dataclass that has each of them.
+# The coordinate along a branch is the parameter if LINEAR has its name, otherwise its logarithm.
 PARAMETERS = {"frequency": None}
 PARAMETERS |= dict.fromkeys(("damping", "cubic", "force", "unbalance"), Oscillator)
 PARAMETERS |= dict.fromkeys(("mass_ratio", "clearance", "restitution", "contact_stiffness"), Damper)
 LINEAR = ("frequency", "cubic", "force", "unbalance", "restitution")
-# Indices of F and U, of the forcing amplitude F + U W^2, in the packed array (see `packed`).
+# The forcing has the amplitude F + U W^2. Indices of F and U in the array from `packed.pack`.
 FORCING = {"force": FORCE, "unbalance": UNBALANCE}
 
 
 def facts_of(parameter) -> tuple:
-    """Return a parameter's name in machines, its kind (a key of QUANTITIES) and its bounds."""
+    """Return the parameter's name in a `Machine`, its physical quantity and its bounds."""
     owner = PARAMETERS[parameter]
     if owner is None:
         return parameter, "frequency", FREQUENCY_RANGE
@@ -29,9 +29,9 @@ def facts_of(parameter) -> tuple:
 
 
 def read_followed(model, parameter, span) -> tuple:
-    """Return the name in PARAMETERS of the argument `parameter`, and a dimensionless `span`.
+    """Check `parameter` and `span`. Return the key in PARAMETERS and the dimensionless span.
 
-    Some parameters have other names in machines. The span must hold the value in the model.
+    Some parameters have other names in a `Machine`. The model's value must lie in the span.
     """
     scales, damper = model.scales, model.damper
     names = {facts_of(name)[0] if scales.si else name: name for name in PARAMETERS}
@@ -51,10 +51,10 @@ def read_followed(model, parameter, span) -> tuple:
 
 
 def family_of(oscillator, damper, frequency, parameter, span):
-    """Return a function from the coordinate along a branch to the packed parameters.
+    """Return a function that packs the parameters of the system with a given coordinate.
 
-    Also return the coordinate of the given system, and the coordinates of both ends of the span.
-    Raise ValueError if the contact is too stiff at an end of the span.
+    The coordinate is `parameter` or its logarithm. Also return the coordinate of the given system,
+    and both ends of the span. Raise ValueError if the contact is too stiff at an end.
     """
     part = {None: None, Oscillator: oscillator, Damper: damper}[PARAMETERS[parameter]]
     value = frequency if part is None else getattr(part, parameter)

@@ -11,8 +11,8 @@ from typing import NamedTuple
 from impact_damper.model.bounds import names_arguments
 from impact_damper.model.units import convert, optional, physical
 
-# Duration of an impact times speed, divided by the largest compression:
-# (4/5) sqrt(pi) Gamma(2/5)/Gamma(9/10).
+# An impact lasts DURATION times the largest compression, divided by the speed.
+# DURATION is (4/5) sqrt(pi) Gamma(2/5)/Gamma(9/10).
 DURATION = 2.9432752
 # A material under a ball yields if p0, the pressure at the centre of the contact, is at least YIELD
 # times the yield strength (Johnson, section 6.1, for Poisson's ratio nu = 0.3).
@@ -22,7 +22,7 @@ WALLS = "of the walls, if they are of another material"
 
 
 class Impact(NamedTuple):
-    """Largest compression (m), largest force (N) and duration (s) of an elastic impact."""
+    """An elastic impact: largest compression (m), largest force (N) and duration (s)."""
 
     compression: float
     force: float
@@ -99,18 +99,18 @@ class HertzContact:
     def compression(self, speed, mass) -> float:
         """Return the largest compression q (m) of an elastic impact: (2/5) K q^(5/2) = m v^2/2.
 
-        v (m/s) is the relative speed, and m (kg) the reduced mass m1 m2/(m1 + m2).
+        K is `coefficient`, v (m/s) the relative speed, m (kg) the reduced mass m1 m2/(m1 + m2).
         """
         return (5 * mass * speed**2 / (4 * self.coefficient)) ** 0.4
 
     def impact(self, speed, mass) -> Impact:
-        """Return the `Impact` of elastic bodies; `compression` explains the arguments."""
+        """Return the `Impact` of elastic bodies. The arguments are explained in `compression`."""
         q = self.compression(speed, mass)
         return Impact(q, self.coefficient * q**1.5, DURATION * q / speed)
 
     def stiffness(self, speed, mass) -> float:
-        """Return the stiffness k (N/m) of the linear spring with k q^2/2 = m v^2/2.
+        """Return the stiffness k (N/m) of a linear spring that is compressed equally far.
 
-        q, m and v: see `compression`. The force k q is 4/5 of the force K q^(3/2) after Hertz.
+        k q^2/2 = m v^2/2, as in `compression`. The force k q is 4/5 of the force after Hertz.
         """
         return 0.8 * self.coefficient * self.compression(speed, mass) ** 0.5

@@ -1,6 +1,6 @@
-"""Machines that fit measured curves by least squares.
+"""Find the machine that fits a measured curve, by least squares.
 
-Only functions import NumPy and SciPy: each dry run of Snakemake imports the module, and stays fast.
+NumPy and SciPy are imported in functions, so that dry runs of Snakemake import this module fast.
 """
 
 import csv
@@ -15,16 +15,16 @@ from impact_damper.model.units import QUANTITIES, check_si
 COLUMN = re.compile(r"\s*([a-z]+)[\s_\[(]+([^\s\])]+)[\])]?\s*")
 FEWEST = 20
 SPRING = ("linear_stiffness", "damping", "cubic_stiffness")
-# For `from_response`. FOLD: least divisor of a residual, used at folds. PASSES: number of fits.
+# For `from_response`. FOLD keeps residuals finite at folds. PASSES: number of fits in a row.
 FOLD, PASSES = 0.1, 6
 
 
 class Identified(NamedTuple):
     """A machine found by a fit, and the uncertainties of its values.
 
-    `uncertainties` has the standard uncertainty of each fitted field, in SI units, if errors of the
-    samples are independent and equally large. `noise` is the standard deviation of the residuals:
-    in m for a decay, as a fraction for a response. `ended` says how the fit ended.
+    `uncertainties` has the standard uncertainty of each fitted field in SI units. It assumes that
+    errors of the samples are independent and equally large. `noise` is the standard deviation of
+    the residuals: in m for a decay, relative for a response. `ended` says how the fit ended.
     """
 
     machine: object
@@ -80,11 +80,11 @@ def from_ring_down(cls, data, *, mass, **excitation) -> Identified:
 def from_response(cls, data, *, force) -> Identified:
     """Find the machine whose response to a known force fits a measured response best.
 
-    All branches obey the balance of the first harmonic, (k - m w^2 + 3/4 k3 a^2)^2 a^2 + (c w a)^2
-    = F^2 (Nayfeh and Mook, Nonlinear Oscillations, section 4.1, 1979). With R = ln(left side/right
-    side)/2 the residual is R/(dR/d ln a), which is nearly the relative error of a. The neglected
-    harmonics matter where 3/4 k3 a^2 exceeds k/10: they change the fitted stiffness by about 1 %,
-    and near a jump the fitted damping by 10 %.
+    The response obeys the balance of the first harmonic, (k - m w^2 + 3/4 k3 a^2)^2 a^2 + (c w a)^2
+    = F^2 (Nayfeh and Mook, Nonlinear Oscillations, section 4.1, 1979). R = ln(left side/right
+    side)/2 is 0 if it holds. The residual R/(dR/d ln a) is nearly the relative error of a. Higher
+    harmonics are neglected. Where 3/4 k3 a^2 exceeds k/10, they change the fitted stiffness by
+    about 1 %, and near a jump the fitted damping by 10 %.
 
     Parameters
     ----------
@@ -135,7 +135,7 @@ def from_response(cls, data, *, force) -> Identified:
 def _fit(residuals, guess, scale):
     """Return fitted parameters, standard errors, standard deviation of residuals, and a message.
 
-    `residuals` maps parameters of shape (parameters, n) to residuals of shape (samples, n).
+    `residuals` takes n sets of parameters, shape (parameters, n), and returns shape (samples, n).
     """
     import numpy as np
     from scipy.optimize import least_squares
@@ -157,7 +157,7 @@ def _fit(residuals, guess, scale):
 
 
 def _free(time, parameters):
-    """Return the decay of a mass of 1 kg for each column of parameters, shape (times, columns)."""
+    """Return the decaying motion of a mass of 1 kg for each column of parameters, in columns."""
     import numpy as np
     from scipy.integrate import solve_ivp
 
@@ -177,7 +177,7 @@ def _free(time, parameters):
 
 
 def _decay(time, measured):
-    """Return a guess of the 6 parameters of a decay, by its analytic signal, and their scales."""
+    """Return first guesses for the 6 parameters of a decay, and the typical size of each."""
     import numpy as np
     from scipy.signal import hilbert
 
@@ -202,7 +202,7 @@ def _decay(time, measured):
 
 
 def _resonance(w, amplitude, force):
-    """Return guesses of k, c, k3, m, and their scales: c from the peak, k, k3, m by linear fits."""
+    """Return first guesses for k, c, k3 and m, and the typical size of each."""
     import numpy as np
 
     top = np.argmax(amplitude)
@@ -235,7 +235,7 @@ def _read(data, kinds):
 
 
 def _columns(path, kinds):
-    """Return the columns of a CSV file with names in `kinds`, as tuples of numbers in SI units."""
+    """Return the columns of a CSV file that `kinds` names, as tuples of numbers in SI units."""
     with path.open(encoding="utf-8-sig", newline="") as file:
         reader = csv.DictReader(file)
         matches = filter(None, map(COLUMN.fullmatch, reader.fieldnames or ()))

@@ -16,7 +16,7 @@ GRAVITY = 9.81  # acceleration of gravity, m/s^2
 ANGLES = {"least": 0, "most": 1.5708}  # range of the inclination of a gap, radian
 VERTICAL = 1.5707  # least inclination of a vertical gap, radian
 FRICTIONS = {"least": 0, "most": 10}  # range of a coefficient of friction
-# Keys of a damper in a machine's file that are arguments of `mounting`, not of `MachineDamper`.
+# Arguments of `mounting` that are keys of the damper in a machine's file.
 MOUNT = ("inclination", "friction_coefficient", "normal_force")
 GRAVITIES = {"least": -1e3, "most": 1e3}  # range of gravity along the gap, m/s^2
 # Largest damping ratio. At 1, critical damping, the machine no longer vibrates.
@@ -24,7 +24,7 @@ MOST_DAMPING = 0.99
 
 
 class Derived(float):
-    """A number that a machine computes from its other fields; a copy computes the number again."""
+    """A field that a machine computed from other fields. A copy computes this field again."""
 
 
 @bounds.names_arguments
@@ -50,7 +50,7 @@ class MachineDamper:
         convert(self)
 
     def check_for(self, machine):
-        """Raise ValueError if the damper does not fit a machine; the message has the allowed range.
+        """Raise ValueError if a value of the damper is out of the range allowed for a machine.
 
         The gap must exceed the static play, twice the compression of a contact under the force
         F m2/(m1 + m2). F is the static force on the machine, m1 its mass, and m2 the loose mass.
@@ -67,7 +67,7 @@ class MachineDamper:
         check_si("gap", self.gap, "clearance", above=play, why=why)
 
     def scaled(self, scales) -> Damper:
-        """Return the dimensionless damper, in the scales of its machine."""
+        """Return the dimensionless damper. `scales` are the scales of its machine."""
         return Damper(
             mass_ratio=scales.from_si(self.mass, "mass"),
             clearance=scales.from_si(self.gap, "gap"),
@@ -178,7 +178,7 @@ class Machine:
             )
 
     def _derive(self):
-        """Set linear_stiffness or natural_frequency, and damping_ratio, from the fields given."""
+        """Set the fields that follow from other fields, such as natural_frequency."""
         if self.natural_frequency is None:
             found = math.sqrt(self.linear_stiffness / self.mass) / (2 * math.pi)
             object.__setattr__(self, "natural_frequency", Derived(found))
@@ -237,8 +237,8 @@ class Machine:
     def scales(self) -> Scales:
         """Scales with which the dimensionless equations describe the machine.
 
-        The scale of length is sqrt(static deflection times displacement at resonance): motions and
-        useful gaps are then of order 1. The scale of time makes omega_l^2 + |k3| = 1.
+        The scale of length is the geometric mean of static deflection and displacement at
+        resonance, which makes motions of order 1. The scale of time makes omega_l^2 + |k3| = 1.
         """
         stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
         length = math.sqrt(self._static_deflection() * self.resonant_displacement)
@@ -248,9 +248,9 @@ class Machine:
     def _static_deflection(self):
         """Return the static deflection (m) under the force, or under mass times base_acceleration.
 
-        If unbalance is given, the result is unbalance/mass; if base_displacement, this amplitude.
-        Without excitation it is the deflection at which the linear force of the spring equals the
-        cubic force, or 1 mm if one of these forces is absent.
+        With an unbalance return unbalance/mass, with base_displacement this displacement. Without
+        excitation return the deflection at which the spring's linear and cubic forces are equal,
+        or 1 mm if one of these forces is absent.
         """
         stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
         if self.force:
@@ -265,9 +265,9 @@ class Machine:
 
     @property
     def resonant_displacement(self) -> float:
-        """Displacement (m) of a linear machine at resonance: static deflection times max(1, m w/c).
+        """Estimated displacement (m) at resonance: static deflection times max(1, m w/c).
 
-        c is `viscous_damping`, and m w^2 the spring's secant stiffness at the static deflection.
+        c is `viscous_damping`. w is the natural frequency by the secant stiffness of the spring.
         """
         static = self._static_deflection()
         stiffness = self.linear_stiffness + abs(self.cubic_stiffness) * static**2
@@ -302,7 +302,7 @@ class Machine:
 
     @property
     def forcing(self) -> tuple[float, float]:
-        """F (N) and U (kg m) of the forcing amplitude F + U w^2 at the angular frequency w."""
+        """F (N) and U (kg m). At the angular frequency w the forcing amplitude is F + U w^2."""
         if self.is_based:
             moved = self.base_displacement or 0.0
             return self.mass * (self.base_acceleration or 0.0), self.mass * moved
@@ -325,7 +325,7 @@ class Machine:
         clearances : sequence of 2 floats, str or pint.Quantity
             In place of `gap`, the distances (m) from the loose mass at rest to both walls. Motions
             depend on the sum only, because no spring holds the loose mass between the walls. States
-            count from mid-gap, so the loose mass at rest is at half the difference of the two.
+            are relative to mid-gap, where this loose mass is at half the difference of the two.
         mount : dict, optional
             Arguments of `mounting`, such as {"inclination": "90 deg"}.
         contact
@@ -357,11 +357,11 @@ def mounting(
     normal_force=None,
     friction=None,
 ) -> dict:
-    """Return a dict: `gravity` along the gap (m/s^2) and `friction` (N) of a loose mass (kg).
+    """Return a dictionary of `gravity` along the gap (m/s^2) and `friction` of a loose mass (N).
 
     `inclination` (radian, or text such as "90 deg") is the angle of the gap to the horizontal, by
     default 0. `normal_force` (N) presses the loose mass on its floor; the default is the weight's
-    component normal to the gap. `gravity` may replace `inclination`, and `friction` may replace
+    component normal to the gap. Give `gravity` or `inclination`. Give `friction`, or the other two,
     `friction_coefficient` and `normal_force`. Raise ValueError for values that exclude each other.
     """
     mass = check_si("mass", mass, "mass", above=0)

@@ -1,4 +1,4 @@
-"""Parameters packed into the array `p` of COUNT dimensionless numbers that kernels read."""
+"""The array `p` of dimensionless parameters that kernels (compiled functions) read."""
 
 import numpy as np
 
@@ -7,9 +7,9 @@ from impact_damper.model.exit_rules import NO_TENSION
 from impact_damper.model.parameters import NONLINEAR, Oscillator, check_damper, parameters_in
 from impact_damper.model.text import number
 
-# Names of the numbers in `p`, in their order. FREQUENCY is W, STIFFNESS omega_l^2. DASHPOT is the
-# coefficient of the dashpot in the walls. FRICTION is per unit of loose mass. LAG is the time
-# DASHPOT / CONTACT_STIFFNESS if the walls never pull, and 0 if the walls may pull.
+# NAMES of the numbers in `p`, in order. FREQUENCY is W, STIFFNESS is omega_l^2. DASHPOT is the
+# coefficient of the walls' dashpot. FRICTION is per unit of loose mass. LAG is a time, DASHPOT /
+# CONTACT_STIFFNESS if the walls never pull, and 0 if the walls may pull.
 FIELDS = [each.name for each in parameters_in(Oscillator)]
 NAMES = (
     "FREQUENCY",
@@ -33,7 +33,7 @@ def pack(oscillator, damper, frequency) -> np.ndarray:
 
     Without a damper (None) the clearance is infinite and the damper's other parameters are 0. Raise
     TypeError if an argument has the wrong type. Raise ValueError if W is out of range, or if the
-    natural frequency of the contact exceeds MOST_STIFF W.
+    natural frequency of the contact exceeds MOST_STIFF times W.
     """
     p = np.zeros(COUNT)
     p[FREQUENCY] = frequency = check_frequency(frequency)
@@ -65,7 +65,7 @@ def pack(oscillator, damper, frequency) -> np.ndarray:
 
 
 def cubic_spring(p) -> tuple:
-    """Return omega_l^2 and k3. Raise ValueError if the spring has a term that closed forms lack."""
+    """Return omega_l^2 and k3. Raise ValueError if the spring has other nonlinear terms."""
     for name in NONLINEAR:
         value = p[NAMES.index(name.upper())]
         if value and name != "cubic":

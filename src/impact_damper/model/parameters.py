@@ -13,10 +13,10 @@ from impact_damper.model.units import UNITLESS, Scales
 
 
 def parameter(limits, kind, symbol, meaning, *, machine=None, power=None, **default):
-    """Return the dataclass field of a dimensionless parameter, whose metadata describe it.
+    """Return a dataclass field for a dimensionless parameter. The field's metadata describe it.
 
-    `kind` is a key of `units.QUANTITIES`. `machine` is the parameter's name in a machine, if it has
-    another name there. `power` is the power of Z1 that a coefficient of the spring multiplies.
+    `kind` is a key of `units.QUANTITIES`. `machine` is the name of the parameter in a `Machine`, if
+    it differs. `power` is given for coefficients of the spring: the power of Z1 in their term.
     """
     facts = {"bounds": limits, "kind": kind, "symbol": symbol, "machine": machine, "power": power}
     return field(metadata=facts | {"meaning": f"{symbol}, {meaning}"}, **default)
@@ -100,11 +100,11 @@ class Oscillator:
 
     @property
     def _terms(self) -> list:
-        """Names of the nonlinear terms of the spring that are not 0."""
+        """Names of the nonlinear coefficients of the spring, without those that are 0."""
         return [name for name in NONLINEAR if getattr(self, name)]
 
     def told(self, *names) -> str:
-        """Return fields as "name = value"; for a machine, in the machine's names and SI units."""
+        """Return text such as "cubic = 1". For a machine it has the machine's names and units."""
         found = []
         for name in names:
             facts = self.__dataclass_fields__[name].metadata
@@ -120,7 +120,7 @@ class Oscillator:
 
     @property
     def hardening(self) -> float:
-        """Coefficient of a^3 in the first harmonic of the spring's force for Z1 = a cos(W T)."""
+        """Coefficient (3/4) k3. If Z1 = a cos(W T), k3 Z1^3 has the first harmonic (3/4) k3 a^3."""
         others = [name for name in self._terms if name != "cubic"]
         if others:
             raise ValueError(f"{self.told(*others)}: must be 0 in closed forms (cubic springs)")
@@ -196,7 +196,7 @@ class Damper:
 
     @property
     def contact_frequency(self) -> float:
-        """Natural frequency wn = sqrt(r1 (1 + 1/rm)) of the contact; if elastic, it lasts pi/wn."""
+        """Natural frequency wn = sqrt(r1 (1 + 1/rm)). An elastic contact lasts the time pi/wn."""
         return math.sqrt(self.contact_stiffness * (1 + 1 / self.mass_ratio))
 
     @property
@@ -206,13 +206,13 @@ class Damper:
 
 
 def beyond_closed_forms(oscillator, damper) -> list:
-    """Return pairs (oscillator or damper, name) of nonzero parameters that closed forms refuse."""
+    """Return nonzero parameters to which closed forms do not apply, as pairs (object, name)."""
     terms = (damper, "gravity"), (damper, "friction"), (oscillator, "base")
     return [(part, name) for part, name in terms if getattr(part, name)]
 
 
 def check_closed_form(oscillator, damper):
-    """Raise TypeError if `damper` is no Damper, ValueError if closed forms refuse a parameter."""
+    """Raise an error if `damper` is no Damper, or if closed forms do not apply to a parameter."""
     check_damper(damper)
     why = "must be 0 in closed forms and harmonic balance with a damper; simulate it instead"
     for part, name in beyond_closed_forms(oscillator, damper):
@@ -225,7 +225,7 @@ def parameters_in(part) -> list:
     return [each for each in fields(part) if each.type in (int, float)]
 
 
-# NONLINEAR: power of Z1 in each nonlinear term of the spring, keyed by the coefficient's name.
+# Nonlinear coefficients of the spring by name, and the power of Z1 in the term of each.
 NONLINEAR = {
     each.name: each.metadata["power"]
     for each in parameters_in(Oscillator)

@@ -19,14 +19,14 @@ class Settling:
         Number of forcing cycles after which a run is stopped if the motion is strongly chaotic, or
         if the loose mass hardly moves and has touched no wall during these cycles.
     limit : int
-        Number of forcing cycles after which every run is stopped. The motion is then chaotic if
-        chaos is certain, drifting if the primary mass is on an orbit and the loose mass has touched
-        no wall for `patience` cycles, and otherwise undecided.
+        Number of forcing cycles after which every run is stopped. The outcome is then chaotic if
+        chaos is certain. It is drifting if the primary mass is on an orbit and the loose mass has
+        touched no wall for `patience` cycles. Otherwise the motion is undecided.
     watched : int
-        Number of forcing cycles after the run in which a motion that has not settled is measured.
+        Number of forcing cycles, after the run, over which an unsettled motion is measured.
     further : int
-        Largest number of forcing cycles after `limit` in which an undecided motion may prove to be
-        quasi-periodic, chaotic, or periodic with a long period.
+        Largest number of forcing cycles for which an undecided motion is run on. It may then prove
+        to be quasi-periodic, chaotic, or periodic with a long period.
 
     Raises
     ------
@@ -55,7 +55,7 @@ class Settling:
 
 
 def check_settling(settling) -> Settling:
-    """Return `settling`, or the default if it is None; raise TypeError for another type."""
+    """Return `settling`, or default settings if it is None. Another type raises TypeError."""
     if settling is None:
         return Settling()
     if not isinstance(settling, Settling):

@@ -29,13 +29,13 @@ def percent(share, digits=3) -> str:
 
 
 def with_unit(value, unit, digits=6) -> str:
-    """Return a number with its unit. The unit "1" is left out, and so is any unit after "none"."""
+    """Return a number with its unit. The unit "1" is left out. NaN becomes "none" without unit."""
     text = number(value, digits)
     return text if text == "none" or unit in ("", "1") else f"{text} {unit}"
 
 
 def plain(value) -> str:
-    """Return a number as text: with six digits if these are exact, otherwise with all digits."""
+    """Return a number as exact text. It is rounded to six digits only if this changes nothing."""
     value = float(value)
     if not math.isfinite(value):
         return repr(value)

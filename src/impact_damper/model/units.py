@@ -12,9 +12,9 @@ from impact_damper.model.text import number, with_unit
 
 
 class Quantity(NamedTuple):
-    """A kind of physical quantity: the SI unit, and the exponents of length, time and mass in it.
+    """A physical quantity: its SI unit, and the exponents of length, time and mass in the unit.
 
-    Datasets use the unit `shown` if it is not empty. 1 `unit` is `factor` times the unit `shown`.
+    Datasets use the unit `shown`, if there is one. An SI value times `factor` is in this unit.
     """
 
     unit: str
@@ -30,7 +30,7 @@ class Quantity(NamedTuple):
         return self.shown or self.unit or "1"
 
 
-# Quantities by name. The `kind` of a dataset's variable can be one of these names.
+# Physical quantities by name. Parameters and dataset variables refer to these names as `kind`.
 QUANTITIES = {
     "number": Quantity(""),
     "angle": Quantity("radian"),
@@ -64,9 +64,9 @@ CALCULATION = re.compile(r"\s*[\d.][^*/·+]*[*/·+]\s*[\d.].*")
 def si_value(name, value, quantity) -> float:
     """Return a value as a number in the SI unit of its `quantity`, a key of QUANTITIES.
 
-    The value is a number in the SI unit, text with units, a quantity of any registry of pint, or a
-    single value of a dataset. Angular frequencies ("188 rad/s", "1800 rpm") become Hz; pint alone
-    omits the factor 1/(2 pi). Raise TypeError, or ValueError for infinity, NaN or a wrong unit.
+    The value is a number in the SI unit, text with units, a quantity of pint, or a single value of
+    a dataset. Angular frequencies ("188 rad/s", "1800 rpm") become Hz, with the factor 1/(2 pi).
+    Raise TypeError for other types. Raise ValueError for infinity, NaN or a wrong unit.
     """
     value = _from_dataset(value)
     if isinstance(value, numbers.Real) and not isinstance(value, bool):
@@ -90,7 +90,7 @@ def si_value(name, value, quantity) -> float:
 
 
 def _wrong_unit(value, text, unit):
-    """Return a remark in brackets on the wrong unit of a value, or "" for no remark."""
+    """Return a remark for an error message, such as " (this text has no unit)", or ""."""
     if text is None:
         product = len(value) <= LONGEST_TEXT and CALCULATION.fullmatch(value)
         return " (write the result of the calculation, as one number with a unit)" * bool(product)
@@ -112,7 +112,7 @@ def _from_dataset(value):
 
 @cache
 def _factor(text, unit):
-    """Return how many SI units `unit` make one unit `text`; None if `text` is no such unit."""
+    """Return the factor from the unit `text` to the SI unit `unit`; None if it cannot convert."""
     import pint  # takes a third of a second; plain numbers do without pint
 
     registry = pint.get_application_registry()
@@ -127,14 +127,14 @@ def _factor(text, unit):
 
 
 def check_si(name, value, quantity, **bounds) -> float:
-    """Return a value in the SI unit of its quantity; `bounds` (`check_number`) are in this unit."""
+    """Return a value in the SI unit of its quantity. `bounds` are arguments of `check_number`."""
     given = shown(value) if isinstance(value, str) else ""
     unit = QUANTITIES[quantity].unit
     return check_number(name, si_value(name, value, quantity), unit=unit, given=given, **bounds)
 
 
 def absolute_value(value, quantity) -> float | None:
-    """Return a deviation in the SI unit of `quantity`; None for a fraction, such as "5 %"."""
+    """Return a deviation such as "0.2 mm" in the SI unit; return None for a fraction ("5 %")."""
     if quantity is None or not (isinstance(value, str) or hasattr(value, "units")):
         return None
     try:
@@ -144,7 +144,7 @@ def absolute_value(value, quantity) -> float | None:
 
 
 def physical(quantity, meaning="", **others):
-    """Return a dataclass field for a quantity; `others` are `default` and bounds in SI units."""
+    """Return a dataclass field for a quantity. `others` has bounds in SI units, and `default`."""
     default = {key: others.pop(key) for key in ("default",) if key in others}
     unit = QUANTITIES[quantity].unit
     facts = {"quantity": quantity, "bounds": others, "meaning": meaning}
@@ -155,7 +155,7 @@ optional = partial(physical, default=None)
 
 
 def convert(part) -> None:
-    """Convert `physical` fields of a frozen dataclass to SI units; a default of None stays None."""
+    """Convert the fields made by `physical` to SI units, in place. A default of None stays None."""
     for each in fields(part):
         value = getattr(part, each.name)
         if "quantity" in each.metadata and not (value is None and each.default is None):
@@ -164,7 +164,7 @@ def convert(part) -> None:
 
 
 class Scales(NamedTuple):
-    """Scales of a machine in SI units: length x0, time 1/w0, mass m1; all 1 without units.
+    """Scales of a machine in SI units: length x0, time 1/w0 and mass m1. The default is 1.
 
     If `si` is true, users give values in SI units, and messages and results are in SI units.
     """
@@ -175,7 +175,7 @@ class Scales(NamedTuple):
     si: bool = False
 
     def unit(self, kind) -> float:
-        """Return the SI value of the dimensionless number 1, for a kind (a key of QUANTITIES).
+        """Return the SI value of the dimensionless number 1. `kind` is a key of QUANTITIES.
 
         A frequency in Hz is W w0/(2 pi), a gap is twice the clearance. If `si` is false, return 1.
         """
@@ -202,7 +202,7 @@ class Scales(NamedTuple):
         }
 
     def read(self, name, value, kind, **bounds) -> float:
-        """Return an argument, given in the user's unit, as a dimensionless number."""
+        """Check an argument in the user's unit, and return it as a dimensionless number."""
         if not self.si:
             return check_number(name, value, **bounds)
         return self.from_si(check_si(name, value, kind, **self.range_to_si(bounds, kind)), kind)
