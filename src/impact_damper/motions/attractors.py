@@ -1,8 +1,8 @@
 """Attractors, labels of states, and the release set of migration control.
 
-An attractor is a stable orbit; the label of a state says to which attractor the state leads. A
-neighbourhood is an ellipse around a state of a free orbit at the strobe (W T = pi/2). A motion that
-enters the ellipse tends to the orbit (docs/explanation/neighbourhoods.md). Then its run ends.
+An attractor is a stable orbit. The label of a state names the attractor to which the state leads. A
+neighbourhood is an ellipse around a state of a free orbit at the strobe (W T = pi/2). Every motion
+that enters the ellipse tends to the orbit (docs/explanation/neighbourhoods.md), so its run ends.
 """
 
 import math
@@ -20,14 +20,14 @@ from impact_damper.motions import ensemble, records, traces
 from impact_damper.motions.start_states import free_motions
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, STROBE, strobe_time
 
-# Proof of a neighbourhood. STEPS: time steps in a forcing cycle. FACTOR: largest ratio of the
-# radius after a period to the first radius. HALVINGS: bisections in search of the first radius.
+# Neighbourhoods. STEPS: time steps in a forcing cycle. FACTOR: bound on an ellipse's size after a
+# period, divided by its size before. HALVINGS: bisections in the search for the largest ellipse.
 STEPS, FACTOR, HALVINGS = 256, 0.98, 30
 # ALIKE: two free orbits are equal if their states at the strobe differ by less than this number.
 # SAME: two motions with the damper are equal if their max |Z1| differ by less than this fraction.
 ALIKE, SAME = 1e-6, 1e-5
-# Grid of states in the search for orbits. REACH: width along Z1 divided by largest |Z1| of free
-# motions, width along Z1' divided by largest |Z1'|. SEARCHED: number of points on each axis.
+# Grid of states in the search for orbits. REACH: full width of the grid in Z1, divided by the
+# largest |Z1| of free motions; the same in Z1'. SEARCHED: number of grid points along each axis.
 REACH, SEARCHED = 3.0, 24
 # Labels of unsettled motions, by outcome. The label of a settled motion is its attractor's index.
 LABELS = {
@@ -39,16 +39,16 @@ LABELS = {
     records.DRIFTING: BASIN_LABEL["no_contact"],
     records.QUASI_PERIODIC: BASIN_LABEL["quasi_periodic"],
 }
-# Release set. PHASES: number of phases in a cycle, even. WIDTH: half width of the grid divided by
-# max |Z1| of the resonance motion. REFINED: coarse cell's width / fine cell's width, a power of 2.
+# Grids of a release set. PHASES: number of forcing phases, even. WIDTH: half width of a grid in Z1,
+# divided by max |Z1| of the resonance motion. REFINED: fine cells per coarse cell along each axis.
 PHASES, WIDTH, REFINED = 16, 1.6, 4
 
 
 class Attractors(NamedTuple):
-    """Stable orbits of the free oscillator, in order of max |Z1|, with m neighbourhoods.
+    """Stable orbits of the free oscillator, by ascending max |Z1|, and their neighbourhoods.
 
-    Neighbourhood k, of the orbit with the index owner[k], contains a state z at the strobe if
-    |shape[k] (z - centre[k])| < 1. If the proof fails, shape[k] is infinite.
+    Neighbourhood k belongs to the orbit records[owner[k]]. It contains a state z at the strobe if
+    |shape[k] (z - centre[k])| < 1. If no neighbourhood could be proved, shape[k] is infinite.
     """
 
     records: np.ndarray
@@ -58,21 +58,21 @@ class Attractors(NamedTuple):
 
 
 def find_attractors(p, states, settling) -> Attractors:
-    """Return the `Attractors` to which states (n, 2), Z1 and Z1' at the strobe, lead."""
+    """Run free motions from states (Z1, Z1') at the strobe, shape (n, 2); return `Attractors`."""
     starts = np.tile(np.asarray(states, float).reshape(-1, 2), 2)
     motions = ensemble.settle(np.tile(p, (len(starts), 1)), starts, settling, from_strobe=True)
     return with_neighbourhoods(p, _distinct(p, motions[is_settled(motions)]))
 
 
 def free_attractors(p, window, settling) -> Attractors:
-    """Return the `Attractors` to which states on a grid lead; `window`: half widths of the grid."""
+    """Find `Attractors` from states on a grid. `window` is its half width in Z1 and in Z1'."""
     grid = [np.linspace(-half, half, SEARCHED) for half in window]
     states = np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2)
     return find_attractors(p, states, settling)
 
 
 def with_neighbourhoods(p, records) -> Attractors:
-    """Return the `Attractors` whose orbits are given as an array of `records.MOTION`."""
+    """Compute the neighbourhoods of known orbits; return orbits and neighbourhoods together."""
     orbits = [orbit_states(p, record, STROBE)[:, :2] for record in records]
     shapes = [neighbourhood(p, state, len(states)) for states in orbits for state in states]
     owner = np.repeat(np.arange(len(records)), records["period"])
@@ -90,7 +90,7 @@ def orbit_states(p, record, phase):
 
 
 def _distinct(p, motions):
-    """Return one record of each orbit, in order of max |Z1|. Mirror images count as two orbits."""
+    """Return one record for each orbit, by ascending max |Z1|. Mirror images are two orbits."""
     kept, seen = [], []
     for record in motions[np.argsort(motions["maximum_displacement"], kind="stable")]:
         known = any(
@@ -105,7 +105,7 @@ def _distinct(p, motions):
 
 
 def linear_flow(p, state, periods):
-    """Return Z1, shape (n,), and d(state)/d(first state), (n, 2, 2), at STEPS times in a cycle."""
+    """Return Z1 (n,) along an orbit, and the derivatives (n, 2, 2) of states by the first state."""
     y, tangents, work = np.tile(state, 2), np.eye(4)[:2].copy(), workspace()
     times = strobe_time(p) + np.arange(periods * STEPS + 1) * 2 * np.pi / (STEPS * p[FREQUENCY])
     displacement, matrices = [y[0]], [np.eye(2)]
@@ -117,7 +117,7 @@ def linear_flow(p, state, periods):
 
 
 def neighbourhood(p, state, periods):
-    """Return the matrix S of the neighbourhood |S (z - state)| < 1; infinite if the proof fails."""
+    """Return the matrix S of a neighbourhood |S (z - state)| < 1; infinite if none is proved."""
     displacement, matrices = linear_flow(p, state, periods)
     values, vectors = np.linalg.eig(matrices[-1])
     if not np.max(np.abs(values)) < 1:
@@ -138,10 +138,10 @@ def neighbourhood(p, state, periods):
 
 
 def _radius(coefficients, step, contraction):
-    """Return the largest radius r(0) for which `contraction` r(P) < FACTOR r(0). P is the period.
+    """Return the largest r(0) for which `contraction` r(P) < FACTOR r(0). P is the orbit's period.
 
-    The radius obeys r' = a r^2 + b r^3 with a, b >= 0, so r' is largest at the end of a step. If
-    s = r(begin) + step (a ahead^2 + b ahead^3) is at most `ahead`, then r(end) is at most s.
+    r(t) obeys r' = a r^2 + b r^3, where a, b >= 0 are the rows of `coefficients`. Each step gives
+    an upper bound on r, because it uses the slope r' at a larger value, `ahead`.
     """
     low, high = 0.0, 10.0
     for _ in range(HALVINGS):
@@ -160,8 +160,8 @@ def _radius(coefficients, step, contraction):
 def label_damped(p, states, phase, settling, known=(), workers=1, progress=None):
     """Run motions with the damper from states (n, 4); return labels, cycles run, and attractors.
 
-    A label is the index of an attractor or a flag of `basin_label`. New attractors, in order of
-    max |Z1|, follow the `known` ones. `phase` is the forcing phase of the states.
+    A label is the index of an attractor, or a flag in LABELS if the motion does not settle. The
+    attractors are the `known` ones, then new ones. `phase` is the forcing phase of the states.
     """
     begin = phase % (2 * np.pi) / p[FREQUENCY]
     if begin > strobe_time(p):
@@ -191,8 +191,8 @@ class ReleaseSet(NamedTuple):
     """The states of the free oscillator at one frequency that lead to the goal of migration.
 
     The goal is the smallest free motion of period 1, the attractor with the index `goal`. `depth`
-    is the distance of a state (Z1, Z1'/W) from the boundary of the set, positive inside the set.
-    The axes of `depth` are phase, Z1' and Z1. `half` holds the grid's half widths in Z1 and Z1'.
+    holds each grid cell's distance from the edge of the set, negative outside; lengths are in the
+    plane (Z1, Z1'/W). Its axes are phase, Z1', Z1. `half` is the grid's half width in Z1 and Z1'.
     """
 
     p: np.ndarray
@@ -203,7 +203,7 @@ class ReleaseSet(NamedTuple):
 
 
 def release_set(oscillator, frequency, settling, *, cells=64, workers=1) -> ReleaseSet:
-    """Compute the release set at one frequency, on a grid of states at each of PHASES phases.
+    """Compute the release set at one frequency, on a grid of states for each of PHASES phases.
 
     The goal equals its mirror image. So the set at the phase W T + pi is the mirror image of the
     set at the phase W T, and motions are run only from phases below pi.
@@ -235,7 +235,7 @@ def release_set(oscillator, frequency, settling, *, cells=64, workers=1) -> Rele
 
 
 def _refined(inside, half, cells):
-    """Return the mask (n, n) of fine cells in a set. Only cells at the boundary are divided."""
+    """Return the mask of the fine cells in a set. `inside(states)` tells which states are in it."""
     mask = inside(_centres(half, cells)).reshape(cells, cells)
     for _ in range(int(math.log2(REFINED))):
         edge = maximum_filter(mask, 3) != minimum_filter(mask, 3)
@@ -247,7 +247,7 @@ def _refined(inside, half, cells):
 
 
 def _centres(half, cells):
-    """Return the centres (Z1, Z1') of a grid's cells, shape (cells^2, 2), in rows of equal Z1'."""
+    """Return the centres (Z1, Z1') of a grid's cells, shape (cells^2, 2). Z1 varies fastest."""
     middles = (np.arange(cells) + 0.5) * 2 / cells - 1
     return np.stack(np.meshgrid(half[0] * middles, half[1] * middles), axis=-1).reshape(-1, 2)
 
@@ -256,6 +256,6 @@ def signed_distance(inside):
     """Return each cell's distance from the boundary of a set, in cell widths, negative outside."""
     if inside.all() or not inside.any():
         return np.where(inside, np.inf, -np.inf)
-    # The boundary lies half a cell width before the nearest cell on the other side.
+    # The boundary is half a cell width nearer than the nearest cell on the other side.
     inward, outward = distance_transform_edt(inside), distance_transform_edt(~inside)
     return np.where(inside, inward - 0.5, 0.5 - outward)

@@ -26,7 +26,7 @@ from impact_damper.motions.watch import RING, SEEN, begin_watch, watch
 
 # Number of states that are labelled in one call of a kernel. Ctrl-C waits until the call ends.
 LABELLED = 4096
-# Flags of `basin_label`. GONE: the motion from a state escapes. UNKNOWN: the motion is unresolved.
+# Labels of states that lead to no known orbit. GONE: the motion escapes. UNKNOWN: unresolved.
 GONE, UNKNOWN = -2, -1
 
 
@@ -56,7 +56,7 @@ def settle(
 
 @kernel
 def settle_many(parameters, states, start, tolerance, patience, limit, out, stop):
-    """Run motions from states at the times `start`; `watch` fills the records `out`."""
+    """Run motions from states at the times `start` until `watch` stops them; fill records `out`."""
     size = min(len(out), RESIDENT)
     pool = make_pool(size)
     seen = np.zeros(size, SEEN)
@@ -89,10 +89,10 @@ def settle_many(parameters, states, start, tolerance, patience, limit, out, stop
 
 @kernel
 def follow_many(parameters, states, cycles, tolerance, contacts, largest):
-    """Run motions in place from the strobe for a number of forcing cycles.
+    """Run motions from the strobe for a number of forcing cycles; update `states`.
 
-    `contacts` (m,) receives the number of contacts that each motion begins, and `largest` (m,) its
-    largest |Z1|, infinity after an escape.
+    `contacts` (m,) receives the number of contacts that begin in each motion. `largest` (m,)
+    receives the largest |Z1| of each motion, or infinity after an escape.
     """
     sides = np.empty(len(states), np.int64)
     begins, ends = np.empty((2, len(states)))
@@ -103,13 +103,13 @@ def follow_many(parameters, states, cycles, tolerance, contacts, largest):
     advance(parameters, states, sides, begins, ends, tolerance, contacts, largest)
 
 
-# Kernels that settle motions and that follow settled motions, for `settle_with`.
+# Two kernels for `settle_with`: one settles motions, the other runs them for some further cycles.
 SIDE_BY_SIDE = settle_many, follow_many
 
 
 @kernel
 def take(pool, m, i, parameters, states, start, tolerance, seen, out):
-    """Put motion i, if i < len(out), at index m of the pool. Motions of a pool run side by side."""
+    """Put motion i, if it exists, at index m of the pool. Motions in a pool run side by side."""
     if i < len(out):
         p, y = parameters[i], states[i]
         begin_watch(seen[m], i, out[i])
@@ -119,7 +119,7 @@ def take(pool, m, i, parameters, states, start, tolerance, seen, out):
 
 @kernel_only
 def take_state(pool, m, i, p, states, begin, first, tolerance, y, taken, strobes):
-    """Put the free motion from state i, if i < len(states), at index m of the pool."""
+    """Put the free motion from state i, if it exists, at index m of the pool."""
     if i < len(states):
         taken[m], strobes[m] = i, 0
         y[0], y[1], y[2], y[3] = states[i, 0], states[i, 1], states[i, 0], states[i, 1]
@@ -131,7 +131,7 @@ def label_states(p, states, phase, attractors, tolerance, limit, workers=1, prog
     """Return labels of states of the free oscillator, and the cycles until each label is known.
 
     `states` (n, 2) are Z1 and Z1' at the forcing phase `phase`. A label is the index of an orbit in
-    `attractors.records`, GONE after an escape, or UNKNOWN after `limit` cycles without an orbit.
+    `attractors.records`, GONE after an escape, or UNKNOWN if no orbit is near after `limit` cycles.
     """
     states = np.ascontiguousarray(states, float)
     strobe = 0.5 * math.pi
@@ -151,7 +151,7 @@ def label_states(p, states, phase, attractors, tolerance, limit, workers=1, prog
 
 @kernel
 def label_many(p, begin, tolerance, limit, neighbourhoods, states, labels, periods, stop):
-    """Fill the results `labels` and `periods` of `label_states`, for states at the time `begin`."""
+    """Do the work of `label_states` for states at the time `begin`; fill `labels`, `periods`."""
     owner, centre, shape = neighbourhoods
     size = min(len(states), RESIDENT)
     pool = make_pool(size)

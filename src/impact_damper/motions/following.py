@@ -14,14 +14,14 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE, polish, repeats_s
 
 # Factor by which the step of the parameter grows after a successful step.
 GROWTH = 1.5
-# Largest correction by Newton's method. REACH: of a predicted state. NUDGE: of the first state.
+# Newton's method moves a predicted state by less than REACH, the first state by less than NUDGE.
 REACH, NUDGE = 0.03, 1e-3
-# Shortest step of the parameter, which is also the accuracy of the end of a branch.
+# Smallest step of the parameter. The end of a branch is found to this accuracy.
 RESOLUTION = 1e-8
 
 
 class Followed(NamedTuple):
-    """The last two parameter values, their two orbits, last status, if the target is reached."""
+    """The last two values and their orbits, the last status, and whether the target is reached."""
 
     values: tuple[float, float]
     orbits: tuple
@@ -56,10 +56,10 @@ def follow(
     """Follow an orbit from one value of a parameter to another, or as far as possible.
 
     `correct(value, predicted state)` returns an orbit (None on failure) and a status. The first
-    step leads to `target`. A step fails if `correct` fails, or if Z1, Z1' or Z2 changes by `reach`
-    or more, since the new orbit may then lie on another branch. After a success the step is
-    multiplied by `growth`, after a failure halved. A step below `shortest` ends the following.
-    If the orbit `behind` at the value 2 start - target is given, the first prediction uses it too.
+    step goes all the way to `target`. A step fails if `correct` fails, or if Z1, Z1' or Z2 changes
+    by `reach` or more, since the new orbit may lie on another branch. After a failure the step is
+    halved, after a success multiplied by `growth`. Following stops if a step is below `shortest`.
+    An orbit `behind`, at the parameter value 2 start - target, improves the first prediction.
     """
     value, step, status = start, target - start, ""
     before, last_step = (start, orbit), target - start
@@ -90,7 +90,7 @@ def follow_stable(p, state, periods, parameter, target) -> tuple:
     the `StrobeOrbit` at the last value, which is exactly `target` if nothing stops the following.
     If Newton's method fails at every value, return the given state and the multiplier NaN.
     """
-    # `period` of a record is a two-byte integer. For this type numba would compile kernels again.
+    # A period from a record is a two-byte integer. For that type numba would compile kernels again.
     periods = int(periods)
     p, first = p.copy(), np.array(state, float)
     _, _, multiplier = polish(p, first, periods, NUDGE, POLISH_TOLERANCE)
@@ -114,6 +114,6 @@ def follow_stable(p, state, periods, parameter, target) -> tuple:
 
 
 def record_at(p, state, periods, parameter, value, tolerance=POLISH_TOLERANCE):
-    """Follow a stable orbit to a value of a parameter; return the orbit's record there, or None."""
+    """Follow a stable orbit to a parameter value; return its record there, or None if it ends."""
     p, orbit = follow_stable(p, state, periods, parameter, value)
     return measured(p, orbit.state, periods, tolerance) if p[parameter] == value else None

@@ -1,7 +1,7 @@
 """Legs of a run of migration control. A leg is the motion between two switchings of the damper.
 
-A switching, at any forcing phase, changes neither Z1 nor Z1'. A motion that has settled goes on
-from its last state, not from a state of the orbit. So Z1 and Z1' are continuous in the whole run.
+Z1 and Z1' are continuous in the whole run. Switching the damper does not change them, and a settled
+motion goes on from its own last state, not from the exact state of its orbit.
 """
 
 import math
@@ -19,17 +19,17 @@ from impact_damper.motions.watch import NEAR, NEAREST, RING, move_onto_orbit, ne
 
 # Forcing cycles in one call of a kernel. Ctrl-C waits until the call ends.
 STROBES_AT_ONCE = 50_000
-# Kinds of rules in `hold`. A rule says when the motion is released (the damper is switched off).
+# Rules that say when `hold` ends, which is when the damper is switched off.
 SETTLED, HOLD, PHASE, STATE = range(4)
 
 
 def run(p, y, ahead, strobe, tolerance, limit, stop=NEVER):
     """Run a motion until it settles or escapes, for at most `limit` cycles after the first strobe.
 
-    The motion begins in the state y (4,), `ahead` forcing cycles before the strobe with the number
-    `strobe`. The last state replaces y. Return the path and a `records.MOTION`, with measurements
-    if the motion has settled. The path (m, 5) has a row for the beginning and for each strobe. A
-    row holds the number of the strobe (at the beginning: `strobe` - `ahead`) and the state.
+    The motion begins in the state y (4,), `ahead` forcing cycles before its first strobe. The last
+    state replaces y. Return the path and a record (`MOTION`), with measurements if the motion has
+    settled. The path (m, 5) has a row for the beginning and one for each strobe. A row holds the
+    time in forcing cycles and the state. The time of the first strobe is the number `strobe`.
     """
     records, path = np.zeros(1, MOTION), np.empty((limit + 2, 5))
     out = records[0]
@@ -55,7 +55,7 @@ def run(p, y, ahead, strobe, tolerance, limit, stop=NEVER):
 
 @kernel
 def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, path, out):
-    """Do the part of `run` from its strobe `first` to `last` - 1; return new `side` and `near`."""
+    """Do the part of `run` from strobe `first` to before `last`; return new `side` and `near`."""
     work = workspace()
     none = np.empty((0, 4))
     for k in range(first, last):
@@ -79,13 +79,13 @@ def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, p
 
 
 def leg(before, after, y, wait, place, strobe, tolerance, limit, stop=NEVER):
-    """Call `wait_and_switch` at the strobe number `strobe`, then `run`; return `run`'s results."""
+    """Call `wait_and_switch` at the strobe, then `run`; return the results of `run`."""
     wait_and_switch(before, after, y, wait, place, tolerance)
     return run(after, y, 1.0 - wait % 1.0, strobe + math.floor(wait) + 1.0, tolerance, limit, stop)
 
 
 def wait_and_switch(before, after, y, wait, place, tolerance):
-    """Run from a strobe for `wait` forcing cycles, then switch the damper; return the last time T.
+    """Run from a strobe for `wait` forcing cycles, then switch the damper; return the time T.
 
     `before` and `after` are the packed parameters before and after the switching. Switching the
     damper on sets Z2 to `place` times the clearance, and Z2' to 0.
@@ -101,7 +101,7 @@ def wait_and_switch(before, after, y, wait, place, tolerance):
 
 
 def hold_by_state(off, on, y, wait, place, strobe, tolerance, longest, releases):
-    """Wait, switch the damper on, later off; return the path with the damper on, rows as in `run`.
+    """Wait, switch the damper on and later off; return the path in between, rows as in `run`.
 
     The damper is switched off when the state is in the release set `releases`, or after `longest`
     cycles. The state after switching off replaces y and is the last row of the path.
@@ -123,7 +123,7 @@ def hold_by_state(off, on, y, wait, place, strobe, tolerance, longest, releases)
 
 @kernel
 def depth_of(depth, half, phase, x, v):
-    """Return `depth` of a `ReleaseSet` at the state Z1 = x, Z1' = v; -infinity outside the grid."""
+    """Return a `ReleaseSet`'s `depth` at Z1 = x, Z1' = v, or -infinity outside its grid."""
     if not (abs(x) <= half[0] and abs(v) <= half[1]):
         return -math.inf
     cells = depth.shape[1]
@@ -134,14 +134,14 @@ def depth_of(depth, half, phase, x, v):
 
 @kernel
 def hold(on, y, side, begin, limit, rule, draw, depth, half, tolerance, path, work):
-    """Run a motion with the damper on, from the time `begin` until a rule releases the motion.
+    """Run a motion with the damper on, from the time `begin` until a rule ends the run.
 
-    `rule` holds a kind, a number n of forcing cycles, and the index k of a phase. HOLD releases the
-    motion after n cycles, PHASE when phase k first occurs after n cycles, and STATE when the state
-    is in the release set, at the latest after n cycles. SETTLED waits until the strobe states
-    repeat, and then for the fraction `draw` of the period. At each strobe a row of `path` (m, 5)
-    receives the forcing cycles since `begin` and the state. Return the last time, whether the
-    motion was released within `limit` cycles, and the number of contacts begun.
+    `rule` is (kind, n, k). A HOLD run ends after n forcing cycles. A PHASE run ends after n cycles,
+    when the forcing first has the phase with the index k. A STATE run ends in the release set, or
+    after n cycles. A SETTLED run ends after the strobe states repeat, at the fraction `draw` of the
+    next period. Each strobe fills a row of `path` (m, 5): forcing cycles since `begin`, and state.
+    Return the last time, whether the rule ended the run within `limit` cycles, and the number of
+    contacts begun.
     """
     kind, length, wanted = rule
     none, ring = np.empty((0, 4)), np.empty((RING, 4))

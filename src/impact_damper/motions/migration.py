@@ -17,13 +17,13 @@ from impact_damper.motions.records import NEVER
 from impact_damper.motions.traces import states_at
 from impact_damper.theory.free_oscillator import main_solutions
 
-# Times in `course`. MARGIN: forcing cycles before and after a run. SAMPLES: samples in a cycle.
+# Samples in `course`. MARGIN: forcing cycles before and after a run. SAMPLES: samples in a cycle.
 MARGIN, SAMPLES = 10, 40
 # Two free motions are equal if their max |Z1| differ by less than this number.
 ALIKE = 1e-6
-# Log entry: the damper is switched on, then off. Times are in forcing cycles from the first strobe.
-# end_time: end of the motion after switching off. destination: flag of the motion after switching
-# off. released_period, released_displacement (max |Z1|): motion before switching off.
+# A log entry: the damper is switched on, then off. Times are forcing cycles from the first strobe.
+# released_period, released_displacement (max |Z1|): of the motion before switching off.
+# destination, end_time: kind and end of the free motion after switching off.
 SWITCHING = np.dtype(
     [(name, "f8") for name in ("on_time", "off_time", "end_time")]
     + [("released_period", "i2"), ("released_displacement", "f8"), ("destination", "i1")]
@@ -33,8 +33,8 @@ SWITCHING = np.dtype(
 class ReleaseCase(NamedTuple):
     """Packed parameters with the damper on and off, and the free motions at one frequency.
 
-    `state` is the state of the resonance motion at the strobe. `known` holds two numbers: max |Z1|
-    of the non-resonance motion and max |Z1| of the resonance motion.
+    `state` is the state of the resonance motion at the strobe. `known` holds max |Z1| of the
+    non-resonance motion, then max |Z1| of the resonance motion.
     """
 
     on: np.ndarray
@@ -69,11 +69,11 @@ def migrate(
         motion has settled. With "state" the damper is switched off as soon as the state of the
         primary mass leads to the small motion.
     seed : int or numpy.random.SeedSequence
-        Seed of random switching phases and of random first places of the loose mass.
+        Seed of the random phases of switching and of the random places of the loose mass.
     longest_hold : int
-        Forcing cycles after which a damper that is on is switched off in any case.
+        Number of forcing cycles after which the damper is switched off in any case.
     periods : int
-        Forcing cycles from the beginning of the run after which the damper is not switched on.
+        After this number of forcing cycles in a run the damper is not switched on again.
     switchings : int
         Largest number of switchings; switching on and then off is one switching.
     settling : Settling, optional
@@ -170,14 +170,14 @@ def release_case(oscillator, damper, frequency, settling) -> ReleaseCase:
 
 
 def kinds(period, displacement, known):
-    """Return the flags (`DAMPED_MOTION`) of motions, from arrays of their periods and max |Z1|."""
+    """Return the kinds of motions (flags of DAMPED_MOTION) from their periods and max |Z1|."""
     one = np.where(displacement < known[1] / 2, DAMPED_MOTION["quiet"], DAMPED_MOTION["violent"])
     several = np.where(period > 1, DAMPED_MOTION["subharmonic"], one)
     return np.where(period == 0, DAMPED_MOTION["unsettled"], several)
 
 
 def destination(known, record):
-    """Return the flag (`FREE_MOTION`) of the free motion in a record."""
+    """Return the kind of a free motion (a flag of FREE_MOTION) from its record."""
     if not is_settled(record):
         return FREE_MOTION["unresolved"]
     if record["period"] == 3:
@@ -191,11 +191,11 @@ def destination(known, record):
 def control(case, draws, longest_hold, settling, periods, releases, stop=NEVER):
     """Return the path and the log (`SWITCHING`) of one run of migration control.
 
-    A row of `draws` holds three numbers from 0 to 1: the wait before the damper is switched on, as
-    a fraction of the motion's period; the place of the loose mass in the gap; the wait before the
-    damper is switched off, as a fraction of the motion's period. `releases` is the `ReleaseSet` for
-    release by state, otherwise None. The path (m, 5) has a row for each strobe and each switching.
-    A row holds the forcing cycles since the first strobe, and the state.
+    A row of `draws` holds three random numbers from 0 to 1: the wait before switching on, the place
+    of the loose mass in the gap, and the wait before switching off. A wait is a fraction of the
+    motion's period. `releases` is the `ReleaseSet`, or None for release after settling. The path
+    (m, 5) has a row for each strobe and each switching. A row holds the time, in forcing cycles
+    since the first strobe, and the state.
     """
     y, period, strobe, path = case.state.copy(), 1, 0.0, []
     tolerance, limit = settling.tolerance, settling.limit
@@ -253,7 +253,7 @@ def course(case, path, log, tolerance):
 
 
 def switching_data(logs, case):
-    """Return a dict of dataset variables of switchings, each of the shape (..., switching)."""
+    """Return dataset variables that describe the switchings, as a dict of arrays like `logs`."""
     period = 2 * np.pi / case.on[FREQUENCY]
     kind = kinds(logs["released_period"], logs["released_displacement"], case.known)
     absent = logs["destination"] == FREE_MOTION["none"]
@@ -263,7 +263,7 @@ def switching_data(logs, case):
 
 
 def run_totals(logs):
-    """Return a dict of dataset variables of runs. A run's time begins at its first `on_time`."""
+    """Return dataset variables that describe whole runs, from the first `on_time`, as a dict."""
     first = logs["on_time"][..., 0]
     reached = np.any(logs["destination"] == FREE_MOTION["non_resonance"], axis=-1)
     yes, no = (flag("trial_outcome", name) for name in ("reached", "not_reached"))

@@ -21,31 +21,31 @@ from impact_damper.model.packed import (
 )
 from impact_damper.motions.traces import states_at, trace
 
-# The time in a panel is scaled to [-1, 1]. NODES: Chebyshev nodes. COEFFICIENTS: matrix from values
-# at the nodes to coefficients of Chebyshev polynomials. WEIGHTS: Clenshaw-Curtis quadrature.
+# The time in a panel is scaled to [-1, 1]. NODES: Chebyshev nodes. COEFFICIENTS: matrix that turns
+# values at the nodes into Chebyshev coefficients. WEIGHTS: weights of Clenshaw-Curtis quadrature.
 NODES = -np.cos(np.pi * np.arange(14) / 13)
 COEFFICIENTS = np.linalg.inv(chebyshev.chebvander(NODES, len(NODES) - 1))
 WEIGHTS = [0.0 if k % 2 else 2 / (1 - k**2) for k in range(len(NODES))] @ COEFFICIENTS
 # Search for the largest modulus in a panel. POINTS: points that are tried first. NEWTON: steps of
-# Newton's method from the best of these points. SLOPE: matrix from coefficients of a polynomial to
-# coefficients of its derivative.
+# Newton's method from the best of these points. SLOPE: matrix that turns the Chebyshev coefficients
+# of a polynomial into the coefficients of its derivative.
 POINTS, NEWTON = np.linspace(-1, 1, 33), 5
 SLOPE = np.vstack([chebyshev.chebder(np.eye(len(NODES))), np.zeros(len(NODES))])
-# Largest length of a panel, as a phase of the fastest oscillation in the panel, radian.
+# A panel is so short that the phase of its fastest oscillation advances by at most this, in radian.
 LONGEST_ANGLE = 2.0
-# Number of contacts whose panels are in memory at once.
+# Largest number of contacts that are divided into panels at once, to save memory.
 PIECE = 100_000
-# Number of states in a forcing cycle from which the largest stiffness of the spring is estimated.
+# Number of samples in a forcing cycle, from which the spring's largest stiffness is estimated.
 SAMPLES = 32
 
 
 class Panels(NamedTuple):
-    """A motion in n panels.
+    """A motion, divided into n panels.
 
     A row of `log` is a contact: wall, begin, end, Z2' at begin, Z2' at end. `lengths` (n,) are the
-    durations of the panels. `times` (n, nodes) and `states` (n, nodes, 4) belong to the nodes.
-    After an escape `states` are NaN. `contact` (n,) is the index of the panel's contact in `log`,
-    -1 in flight. `wall` (n,) is the wall, -1 or 1, in contact, and 0 in flight.
+    durations of the panels. `times` (n, nodes) and `states` (n, nodes, 4) are given at the nodes of
+    each panel; after an escape `states` are NaN. `contact` (n,) is the row of the panel's contact
+    in `log`, or -1 in flight. `wall` (n,) is the wall in contact, -1 or 1, or 0 in flight.
     """
 
     log: np.ndarray
@@ -66,8 +66,8 @@ def sampled(p, state, begin, end, tolerance) -> Panels:
 def contact_forces(p, state, span, course, tolerance):
     """Return the largest force in each contact of a motion, divided by the primary mass.
 
-    `course` is the result of `trace` for the motion. The motion is run again with the steps of
-    `trace`, so even a chaotic motion has the contacts of `course`.
+    `course` is the result of `trace` for the motion. The motion is run again with the same time
+    steps, so that even a chaotic motion has the same contacts.
     """
     states, log = course
     forces = np.zeros(len(log))
@@ -82,7 +82,7 @@ def contact_forces(p, state, span, course, tolerance):
 def _divided(p, state, span, course, tolerance, flights):
     """Return the panels in the contacts of a motion; if `flights`, also the panels in flights."""
     (begin, end), (states, log) = span, course
-    # Edges: `begin`, both ends of each contact, `end`. Intervals 1, 3, ... between are contacts.
+    # Edges: `begin`, beginning and end of each contact, `end`. Intervals 1, 3, ... are contacts.
     ends = np.where(np.isfinite(log[:, 2]), log[:, 2], end)
     edges = np.concatenate([[begin], np.column_stack([log[:, 1], ends]).ravel(), [end]])
     walls = np.zeros(len(edges) - 1)
@@ -137,13 +137,13 @@ def largest(values) -> float:
 
 
 def base_displacement(p, times):
-    """Return the displacement (A/W^2) cos(W T) of a base whose force of inertia is A cos(W T)."""
+    """Return the base's displacement (A/W^2) cos(W T) for the forcing A cos(W T); 0 if fixed."""
     amplitude = forcing_amplitude.py_func(p) / p[FREQUENCY] ** 2
     return p[BASE] * amplitude * np.cos(p[FREQUENCY] * times)
 
 
 def penetration(p, states, wall):
-    """Return the depth of the contact with `wall` (-1 or 1) and the depth's rate; 0 in flight."""
+    """Return the depth of the loose mass in `wall` (-1 or 1), and its rate; 0 if `wall` is 0."""
     return np.where(wall, wall * states[..., 2] - p[CLEARANCE], 0.0), wall * states[..., 3]
 
 

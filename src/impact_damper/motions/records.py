@@ -20,9 +20,9 @@ from impact_damper.model.packed import FREQUENCY
 from impact_damper.motions.strobe_map import STROBE, distance, speed_weight, strobe_time
 from impact_damper.motions.traces import record_beginning
 
-# Largest ratio to another harmonic of a harmonic that is only a rounding error and has no phase.
+# A harmonic has no phase, only a rounding error, if it is below this fraction of another harmonic.
 PHASELESS = 1e-9
-# Largest asymmetry of a symmetric motion.
+# A motion is symmetric if its asymmetry is below this number.
 SYMMETRIC = 1e-6
 # Number of samples in a forcing cycle from which harmonics are computed.
 SAMPLES = 64
@@ -30,7 +30,7 @@ SAMPLES = 64
 COSINE, SINE = (f(STROBE + 2 * np.pi * np.arange(SAMPLES) / SAMPLES) for f in (np.cos, np.sin))
 # Number of windows of an envelope in one call of the kernel. Ctrl-C waits until the call ends.
 AT_ONCE = 1024
-# Argument `stop` of a run that no other thread stops.
+# Argument `stop` of a run that other threads never stop.
 NEVER = np.zeros(1, bool)
 
 # Outcomes of a motion that is run until it settles.
@@ -58,9 +58,9 @@ def survey(p, states, phases, times, tolerance, log, sums):
     """Run a motion in m segments; record contacts, the largest |Z1| and first harmonics.
 
     `states` (m, 4) holds the first state of each segment; the segment's last state replaces it.
-    `phases` and `times` (m + 1,) are W T and T at the beginnings of segments and at the end of the
-    last. `log` (n, 5) receives the first n contacts, in rows as in `traces.trace`. sums[0] receives
-    the real and the imaginary part of the mean of 2 exp(-i W T) Z1, the first harmonic of Z1.
+    `phases` and `times` (m + 1,) are W T and T at the ends of the segments, which follow each other
+    in time. `log` (n, 5) receives the first n contacts, in rows as in `traces.trace`. sums[0]
+    receives real and imaginary part of the first harmonic of Z1, the mean of 2 exp(-i W T) Z1.
     sums[1] receives the first harmonic of Z2. Return the number of contacts and the largest |Z1|.
     """
     work, start = workspace(), np.empty(4)
@@ -104,7 +104,7 @@ def survey(p, states, phases, times, tolerance, log, sums):
 
 @kernel_only
 def add_samples(c, order, moments, sample, count, sums):
-    """Add `count` values of a polynomial times COSINE to sums[0], and times SINE to sums[1]."""
+    """Add a polynomial's values at `count` moments to `sums`, times COSINE and times SINE."""
     t0, t1, t2, t3 = moments
     v0 = v1 = v2 = v3 = c[order]
     for k in range(order - 1, -1, -1):
@@ -117,7 +117,7 @@ def add_samples(c, order, moments, sample, count, sums):
 
 @inlined
 def measure_orbit(p, periods, tolerance, out):
-    """Measure an orbit over `periods` forcing cycles, in two halves if `periods` is odd."""
+    """Measure the orbit in the record `out` over its period of `periods` forcing cycles."""
     halves = 1 + periods % 2
     state = out.state.copy()
     y = state.copy().reshape(1, 4)
@@ -143,12 +143,12 @@ def measure_orbit(p, periods, tolerance, out):
 
 @kernel
 def measure_orbits(parameters, tolerance, out, stop):
-    """Measure the motions with a `period`, and fill the records of other motions with NaN.
+    """Measure the orbits in `out`. Records without a `period` receive NaN, or infinity as |Z1|.
 
     An orbit is integrated over its period, from its state at the strobe. If the period is odd, the
     asymmetry is the distance between the mirrored first state and the state half a period later;
-    otherwise it is NaN. A harmonic is the amplitude c of Re(c exp(i W T)). If another thread sets
-    `stop[0]`, the remaining records are not completed.
+    otherwise it is NaN. A harmonic is the complex number c in Re(c exp(i W T)). If another thread
+    sets `stop[0]`, the remaining records are not completed.
     """
     nothing = complex(np.nan, np.nan)
     for i in range(len(out)):
@@ -173,10 +173,10 @@ def follow_each(parameters, states, cycles, tolerance, contacts, largest):
 
 
 def measure(parameters, settling, out, stop, follow=follow_each):
-    """Complete the records `out` by measurements that begin at their states at the strobe.
+    """Measure motions from their states at the strobe; complete their records `out`.
 
-    A motion without a period is run for `settling.watched` cycles by the kernel `follow`. Of such
-    a motion only the largest |Z1| and the mean number of contacts in a cycle are measured.
+    The kernel `follow` runs a motion without a period for `settling.watched` cycles, to measure the
+    largest |Z1| and the mean number of contacts in a cycle, but nothing else.
     """
     measure_orbits(parameters, settling.tolerance, out, stop)
     watched = settling.watched
@@ -199,7 +199,7 @@ def measured(p, y, periods, tolerance):
 
 
 def is_symmetric_pair(motions):
-    """Return the mask of the symmetric motions of period 1 with two contacts in a cycle."""
+    """Return whether motions are symmetric, of period 1, and have two contacts in a cycle."""
     two = (motions["contacts"] == 2) & (motions["period"] == 1)
     return two & (motions["asymmetry"] < SYMMETRIC)
 
@@ -211,7 +211,7 @@ def phase_of(harmonic, reference):
 
 
 def tabulate(records):
-    """Return a dict of dataset variables from an array of records of any shape."""
+    """Return dataset variables from an array of records of any shape, as a dict."""
     first, second = records["harmonic_displacement"], records["harmonic_relative"]
     others = ("multiplier", "state", "reach", "harmonic_displacement", "harmonic_relative")
     return {name: records[name] for name in MOTION.names if name not in others} | {
@@ -223,12 +223,12 @@ def tabulate(records):
 
 
 def envelope(parameters, lengths, y, tolerance):
-    """Run a motion through n windows of time, with packed parameters (n, COUNT) and `lengths` (n,).
+    """Run a motion through n windows of time, with a row of packed parameters for each window.
 
-    Return two arrays (n,): the largest |Z1| in each window, and the number of contacts begun. In
-    the window of an escape |Z1| is infinite and the number NaN, in later windows both are NaN. The
-    last state replaces y. Each window begins at the strobe. The forcing is 0 there, so W can change
-    between windows. If there is forcing, each window must be one forcing cycle long.
+    Return two arrays (n,): the largest |Z1| in each window, and the number of contacts that begin.
+    If the motion escapes in a window, they are infinite and NaN there, and both NaN in later
+    windows. The last state replaces y. Each window begins at the strobe, where the forcing is 0, so
+    W can change there. If there is forcing, each entry of `lengths` must be one forcing cycle.
     """
     largest, contacts = np.full((2, len(lengths)), np.nan)
     side = side_of(next(iter(parameters)), y)
@@ -243,10 +243,10 @@ def envelope(parameters, lengths, y, tolerance):
 
 @kernel_only
 def run_window(p, y, side, length, largest, tolerance, work):
-    """Run a motion in place from the strobe for a time `length`.
+    """Run a motion from the strobe for a time `length`; the last state replaces y.
 
     Return the wall in contact; the larger of max |Z1| and `largest`, or infinity after an escape;
-    and the number of contacts begun.
+    and the number of contacts that begin.
     """
     t, begun = strobe_time(p), 0
     end = t + length
@@ -262,7 +262,7 @@ def run_window(p, y, side, length, largest, tolerance, work):
 
 @kernel
 def run_windows(parameters, lengths, y, side, tolerance, largest, contacts):
-    """Fill `largest` and `contacts` of `envelope` until an escape; return the wall in contact."""
+    """Run the windows of `envelope`, up to an escape; return the wall in contact at the end."""
     work = workspace()
     for k in range(len(lengths)):
         side, largest[k], begun = run_window(

@@ -24,8 +24,8 @@ from impact_damper.motions.sweep import sweep
 from impact_damper.motions.watch import NEAR
 
 # Runs that measure lives. APART: largest random change of Z1 and of Z1' in the first state of a
-# run. CAPTURE: distance from an orbit at which a transient ends. CHECKED: further forcing cycles of
-# a run that has not ended. These cycles show whether the motion is still chaotic.
+# run. CAPTURE: distance from an orbit at which a transient ends. CHECKED: number of forcing cycles
+# by which a run that has not ended is continued, to see whether the motion is still chaotic.
 APART, CAPTURE, CHECKED = 1e-4, 0.1, 300
 
 
@@ -82,7 +82,7 @@ def frequency_response(
     Returns
     -------
     xarray.Dataset
-        - For each (frequency, motion): the variables of `steady_motion`; the number of the branch;
+        - For each (frequency, motion): the variables of `steady_motion`; the index of the branch;
           `motion_starts`, the number of random starts that lead to the motion; the 95 % interval of
           the share of random starts that lead to the motion; the mean life of a chaotic motion.
           Entries without a motion have the outcome `absent`.
@@ -128,8 +128,8 @@ def frequency_response(
 def find_lives(parameters, outcomes, states, runs, periods, seed, settling, **running) -> dict:
     """Return a dict of dataset variables (n, m): the lives of the chaotic motions in a sweep.
 
-    `runs` runs of at most `periods` forcing cycles begin near the state of each chaotic motion.
-    `outcomes` (n, m) and `states` (n, m, 4) belong to the motions of the sweep.
+    Each chaotic motion is run `runs` times, from random states close to its own, for at most
+    `periods` forcing cycles. `outcomes` (n, m) and `states` (n, m, 4) describe the sweep's motions.
     """
     chaotic = np.argwhere(outcomes == flag("outcome", "chaotic"))
     table = {"life_ends": np.full(outcomes.shape, -1)}
@@ -153,13 +153,13 @@ def find_lives(parameters, outcomes, states, runs, periods, seed, settling, **ru
 def _lives(parameters, states, periods, settling, **running):
     """Return the life of each transient in forcing cycles, or `periods` + 1 if it does not end.
 
-    A life ends at the distance CAPTURE from an orbit, a run at NEAR. The time between is left out.
+    A run ends at the distance NEAR from an orbit, but a life at the larger distance CAPTURE.
     """
     records, stop = np.zeros(len(states), MOTION), np.zeros(1, bool)
 
     def work(part):
         begin = 0.5 * np.pi / parameters[part, FREQUENCY]
-        # The patience exceeds 2 x limit: no run is stopped as chaotic, and no tangent is computed.
+        # With this long patience no run is stopped as chaotic, and no tangent is computed.
         settings = settling.tolerance, 2 * periods + 2, periods
         settle_many(parameters[part], states[part], begin, *settings, records[part], stop)
 
@@ -174,7 +174,7 @@ def _lives(parameters, states, periods, settling, **running):
         decay = -np.log(np.abs(records["multiplier"])) / records["period"]
         approach = np.nan_to_num(np.log(CAPTURE / NEAR) / decay)
     lives = np.maximum(lives - approach, 1)
-    # A run that settles or escapes only in the CHECKED further cycles has the life `periods`.
+    # A motion that settles or escapes only in the CHECKED cycles has the life `periods`.
     still = np.isin(again["outcome"], (CHAOTIC, UNRESOLVED))
     lives[lasting] = np.where(still, periods + 1, periods)
     return lives

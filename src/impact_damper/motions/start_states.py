@@ -2,11 +2,11 @@
 
 A start is an initial state. With a radius all starts are random: uniform in a ball, as in the paper
 (section 3, iii), or with the primary mass in a disk and the loose mass anywhere in its gap. Without
-a radius the sizes of random starts are uniform on a logarithmic scale, up to SPREAD times the
-largest free motion (a motion without the damper), and further starts are placed. Placed starts lie
-on free motions and at rest, with several states of the loose mass; on solutions of harmonic
-balance; and at the end of ramps. A ramp is a slow change of a parameter. Ramps lead to violent
-motions of weakly damped machines, to which random starts rarely lead.
+a radius there are random and placed starts. The sizes of random starts are uniform on a logarithmic
+scale, up to SPREAD times the largest free motion (a motion without the damper). Placed starts lie
+at rest, on free motions, on solutions of harmonic balance, and at the end of ramps. A ramp is a
+slow change of a parameter. A ramp can lead a weakly damped machine to a violent motion to which
+random starts rarely lead.
 """
 
 import math
@@ -32,28 +32,28 @@ PHASES, SAMPLES, MOST_STATES = 6, 256, 5
 # Random starts. SPREAD: size of the largest start divided by the size of the largest free motion.
 # SMALLEST: size of the smallest start divided by the size of the largest start.
 SPREAD, SMALLEST = 3.0, 0.01
-# Placed starts. PLACES: Z2 divided by the clearance. VELOCITIES: Z2' divided by the crossing speed
-# or, on free motions, by max(crossing speed, largest |Z1'| of free motions).
+# Placed starts. PLACES: Z2 divided by the clearance. VELOCITIES: Z2' divided by `_crossing_speed`.
+# On free motions the divisor of Z2' is the largest |Z1'| of free motions, if that is larger.
 PLACES, VELOCITIES = (-2 / 3, 0.0, 2 / 3), (-1.0, 0.0, 1.0)
-# States of the loose mass for `sweep.stable_orbits`. LOOSE_STATES: number of states. LOOSE_SPEED:
-# largest |Z1' - Z2'| divided by max(crossing speed, largest |Z1'| of free motions).
+# Random states of the loose mass for `sweep.stable_orbits`. LOOSE_STATES: number of these states.
+# LOOSE_SPEED: largest speed |Z1' - Z2'|, divided by the same speed as Z2' on free motions.
 LOOSE_STATES, LOOSE_SPEED = 240, 2.0
-# With a softening spring |Z1| and |Z1'| of random starts are at most WITHIN times `barrier`.
+# With a softening spring, |Z1| and |Z1'| of random starts are below WITHIN x values of `barrier`.
 WITHIN = 0.7
 NO_STARTS, NO_LOOSE = np.empty((0, 4)), np.empty((0, 2))
-# Ramps. STEP: relative change of a parameter in a step. PERIODS: forcing cycles in a step. RAISED:
-# ratio of first to last force. BELOW: a ramp up to W begins at BELOW min(W/2, lowest frequency of a
-# fold), a ramp down to W begins at max(2 W, highest frequency of a fold) / BELOW.
+# Ramps. STEP: relative change of the parameter in a step. PERIODS: forcing cycles in a step.
+# RAISED: first force divided by last force. BELOW: a ramp upward to W begins at BELOW times W/2, or
+# times the lowest fold if that is lower; a ramp downward begins above 2 W and the highest fold.
 STEP, PERIODS, BELOW, RAISED = 0.0125, 20, 0.9, 5.0
 
 
 class Search(NamedTuple):
-    """Start states at T = 0 of a search in n systems, and sizes of the starts and free motions.
+    """Start states at T = 0 for n systems, and the sizes of these starts and of free motions.
 
-    `random` has the shape (n, m, 4). `placed` and `loose` hold an array for each system. The arrays
-    are empty if a radius is given. `loose` is an argument of `sweep.stable_orbits`. `displacement`
-    and `speed` (n,) bound |Z1| and |Z1'| of random starts. `free_displacement` and `free_speed`
-    (n,) are the largest |Z1| and |Z1'| of the free motions.
+    `random` (n, m, 4) holds m random starts for each system. `placed` and `loose` hold one array
+    for each system, which is empty if a radius is given. `loose` has states of the loose mass for
+    `sweep.stable_orbits`. `displacement` and `speed` (n,) bound |Z1| and |Z1'| of random starts.
+    `free_displacement` and `free_speed` (n,) are the largest |Z1| and |Z1'| of the free motions.
     """
 
     random: np.ndarray
@@ -97,7 +97,7 @@ def search_starts(oscillator, systems, count, radius, seed, settling, *, whole_g
 
 
 def describe_search(starts, radius, seed, whole_gap=False) -> dict:
-    """Return the parameters of a search that a dataset stores. Unused parameters are left out."""
+    """Return the arguments of a search, for storage in a dataset. Unused ones are left out."""
     parameters = {"starts": starts, "seed": seed} | ({"whole_gap": True} if whole_gap else {})
     return parameters if radius is None else parameters | {"radius": radius}
 
@@ -108,7 +108,7 @@ def missed_share(starts) -> float:
 
 
 def free_sizes(oscillator, frequencies) -> dict:
-    """Return a dict from frequency to largest |Z1| and |Z1'| of free motions (harmonic balance)."""
+    """Return for each frequency the largest |Z1| and |Z1'| of free motions (harmonic balance)."""
     sizes = {w: float(balance_amplitudes(oscillator, w)[-1]) for w in dict.fromkeys(frequencies)}
     return {w: (size, size * w) for w, size in sizes.items()}
 
@@ -141,7 +141,7 @@ def gap_states(count, radius, damper, seed):
 
 
 def wide_starts(oscillator, damper, frequency, count, seed, settling) -> tuple:
-    """Return the fields of a `Search` without a radius in one system, as a tuple."""
+    """Return what one system contributes to the fields of a `Search` without a radius."""
     free = free_motions(oscillator, frequency, settling)
     states, most = random_starts(oscillator, damper, frequency, count, seed, settling)
     if damper is None:
@@ -216,7 +216,7 @@ def ramped(oscillator, damper, frequency, tolerance) -> list:
 
 
 def _ramp(target, indices, factor, tolerance):
-    """Change parameters slowly from `factor` x `target` to `target`; return the last state."""
+    """Change the parameters at `indices` slowly from `factor` x `target`; return the last state."""
     p, state, none = target.copy(), np.zeros(4), np.empty((0, 4))
     for exponent in np.linspace(1, 0, 2 + math.ceil(abs(math.log(factor)) / STEP)):
         p[indices] = target[indices] * factor**exponent
@@ -229,13 +229,13 @@ def _ramp(target, indices, factor, tolerance):
 
 
 def barrier(oscillator):
-    """Return |Z1| at a softening spring's barrier, and the speed at Z1 = 0 to reach the barrier."""
+    """Return |Z1| where a softening spring's force becomes 0, and the speed to get there from 0."""
     stiffness, softening = oscillator.linear_frequency**2, -oscillator.cubic
     return math.sqrt(stiffness / softening), stiffness / math.sqrt(2 * softening)
 
 
 class FreeMotions(NamedTuple):
-    """States (Z1, Z1') at W T = 0 of free motions, shape (k, 2), and largest |Z1| and |Z1'|."""
+    """States (Z1, Z1') of free motions at W T = 0, shape (k, 2), and their largest |Z1|, |Z1'|."""
 
     states: np.ndarray
     displacement: float
@@ -246,7 +246,7 @@ class FreeMotions(NamedTuple):
 def free_motions(oscillator, frequency, settling) -> FreeMotions:
     """Find the free motions at one frequency W, by runs from rest and from harmonic balance.
 
-    Harmonic balance can miss motions near a fold. Starts with the peak's amplitude find these too.
+    Near a fold harmonic balance can miss motions. So runs also start at the resonance peak's size.
     """
     p = pack(oscillator, None, frequency)
     angles = 2 * np.pi * np.arange(PHASES) / PHASES

@@ -1,6 +1,6 @@
 """Find the steady motion to which a state leads; run many motions on several threads.
 
-This module imports no kernels that run motions side by side. Such kernels take long to compile.
+This module imports no kernels that run motions side by side, because they take long to compile.
 """
 
 from concurrent.futures import ThreadPoolExecutor
@@ -23,8 +23,8 @@ from impact_damper.motions.watch import RING, SEEN, begin_watch, watch
 
 # Motions in a chunk. A call of a kernel runs one or more chunks. Ctrl-C waits until the call ends.
 CHUNK = 128
-# MOST_CHUNKS: largest number of chunks that are settled in one call. SLICES: smallest number of
-# calls for each thread, if there are several threads.
+# MOST_CHUNKS: largest number of chunks in one call. SLICES: smallest number of calls for each
+# thread, if there are several threads.
 MOST_CHUNKS, SLICES = 8, 3
 
 
@@ -119,7 +119,7 @@ def settle_with(
 ):
     """Run motions from states (m, 4) at times `begins` (m,); return an array of `records.MOTION`.
 
-    `kernels` run motions one by one (ONE_BY_ONE) or side by side (`ensemble.SIDE_BY_SIDE`). The
+    `kernels` is ONE_BY_ONE, to run one motion after the other, or `ensemble.SIDE_BY_SIDE`. The
     other arguments are as in `ensemble.settle`.
     """
     settle, follow = kernels
@@ -132,7 +132,7 @@ def settle_with(
     def work(part):
         rows, out = parameters[part], records[part]
         settle(rows, states[part], begins[part], *settings, out, stop)
-        # Results may depend on these slices. The slices do not depend on the number of workers.
+        # Results may depend on these slices, so the number of workers must not change the slices.
         for first in range(0, max(len(out), 1), CHUNK):
             some = slice(first, first + CHUNK)
             name_undecided(rows[some], out[some], settling.limit, settling.further, stop)
@@ -140,8 +140,8 @@ def settle_with(
 
     # This call compiles the kernels in the main thread, where Ctrl-C can interrupt the compilation.
     work(slice(0, 0))
-    # Near the end of a slice some lanes (places for motions in a kernel) are empty, so slices are
-    # large. But several workers end at about the same time only if each worker gets several slices.
+    # Large slices are faster: only near the end of a slice a kernel runs few motions side by side.
+    # But each worker gets several slices, so that all workers end at about the same time.
     share = len(states) // CHUNK if workers == 1 else len(states) // (SLICES * workers * CHUNK)
     size = CHUNK * min(max(share, 1), MOST_CHUNKS)
     run_chunks(work, len(states), workers, progress, stop, size=size)
@@ -168,5 +168,5 @@ def settle_each(parameters, states, start, tolerance, patience, limit, out, stop
         assign(out[i].state, y)
 
 
-# Kernels that settle motions and that follow settled motions, for `settle_with`.
+# Two kernels for `settle_with`: one settles motions, the other runs them for some further cycles.
 ONE_BY_ONE = settle_each, follow_each

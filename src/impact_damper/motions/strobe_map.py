@@ -1,4 +1,4 @@
-"""The strobe map, from the state at a strobe to the next strobe; Newton's method for its orbits.
+"""The map from the state at one strobe to the state at the next, and Newton's method for orbits.
 
 The strobe is the forcing phase W T = pi/2. The contacts of a damper at its design point occur near
 W T = 0 and W T = pi. The strobe lies midway between these contacts.
@@ -16,8 +16,8 @@ from impact_damper.model.packed import CONTACT_STIFFNESS, FREQUENCY, INVERSE_MAS
 
 # Phase W T of the strobe.
 STROBE = math.pi / 2
-# Newton's method. ITERATIONS: largest number of corrections. CONVERGED: largest last correction.
-# REGULAR: smallest modulus of the determinant of the linear system.
+# Newton's method. ITERATIONS: largest number of corrections. It has converged if a correction is
+# below CONVERGED. It fails if the modulus of the determinant is below REGULAR.
 ITERATIONS, CONVERGED, REGULAR = 10, 1e-9, 1e-12
 # Largest local error of a step in the integration of orbits.
 POLISH_TOLERANCE = 1e-12
@@ -51,7 +51,7 @@ def speed_weight(p, side):
 
 @kernel
 def distance(a, b, weight):
-    """Return the largest component of |a - b|. Its component of Z2' is multiplied by `weight`."""
+    """Return the largest component of |a - b|, after the Z2' component is scaled by `weight`."""
     d = max(abs(a[0] - b[0]), abs(a[1] - b[1]))
     return max(d, max(abs(a[2] - b[2]), weight * abs(a[3] - b[3])))
 
@@ -138,7 +138,7 @@ def dominant(values):
 
 @kernel
 def polish(p, y, periods, reach, tolerance):
-    """Move a state y onto a periodic orbit nearby, by Newton's method on the map over `periods`.
+    """Move y onto an orbit that repeats after `periods` forcing cycles, by Newton's method.
 
     Without contacts only Z1 and Z1' are unknown. A change of Z1, Z1' or Z2 by `reach` or more is a
     failure. Return whether the method has converged, the residual, and the dominant multiplier.
@@ -172,7 +172,7 @@ def polish(p, y, periods, reach, tolerance):
 
 @kernel
 def repeats_sooner(p, y, periods, tolerance):
-    """Return whether an orbit repeats after fewer cycles (a proper divisor of `periods`)."""
+    """Return whether an orbit repeats after fewer than `periods` forcing cycles."""
     work = workspace()
     none = np.empty((0, 4))
     state = y.copy()

@@ -1,9 +1,9 @@
 """Find the motions along a sweep of one parameter, by runs from start states and by following.
 
 At each value of the parameter Newton's method also finds stable orbits to which hardly any random
-start leads. Settled motions are followed to the next values, upward and downward. Other motions at
-neighbouring values belong to one branch if their outcomes and periods are equal and their sizes
-similar.
+start leads. Settled motions are followed to the next values, upward and downward. Motions that have
+not settled are not followed. At neighbouring values such motions belong to one branch if they have
+the same outcome and similar sizes.
 """
 
 import math
@@ -22,24 +22,24 @@ from impact_damper.motions.records import MOTION, measured, tabulate
 from impact_damper.motions.steady import run_chunks
 from impact_damper.motions.strobe_map import STROBE, distance, flow, polish, strobe_time
 
-# Bounds for two records of one motion. SAME: relative difference of max |Z1|. SAME is also the
-# largest asymmetry of a symmetric motion. ROUNDING: difference of max |Z1| near rest.
-# SIMILAR: `size_ratio` of motions that have not settled.
+# Two records show one motion if max |Z1| differs by less than the fraction SAME, near rest by less
+# than ROUNDING, or for unsettled motions if `size_ratio` is below SIMILAR. A motion is symmetric if
+# its asymmetry is below SAME.
 SAME, ROUNDING, SIMILAR = 1e-6, 1e-11, 1.5
 # Outcomes with infinite or zero max |Z1|. All motions with one such outcome count as one motion.
 ALIKE = tuple(flag("outcome", name) for name in ("diverged", "escaped", "at_rest"))
-# Newton's method for further orbits. LONGEST: longest period in cycles. REACH: largest distance of
-# an orbit from its start, divided by max(|Z1| and |Z1'| of known motions, clearance).
-# SAME_ORBIT: largest difference between states of equal orbits.
+# Newton's method for further orbits. LONGEST: longest period in cycles. REACH: bound on the change
+# of a start, divided by the largest of the clearance and |Z1|, |Z1'| of known motions.
+# SAME_ORBIT: two orbits are equal if their states differ by less than this number.
 LONGEST, REACH, SAME_ORBIT = 5, 1.0, 1e-6
-# Events at the end of a branch. CRITICAL: smallest modulus of the multiplier at a bifurcation.
-# COMPLEX: smallest imaginary part of a complex multiplier. CLOSE: largest difference of max |Z1|
-# between a symmetric motion and the asymmetric motion that branches off.
+# Events at the end of a branch. At a bifurcation the modulus of the multiplier is above CRITICAL. A
+# multiplier is complex if its imaginary part is above COMPLEX. At a loss of symmetry max |Z1| of
+# the symmetric and the asymmetric motion differ by less than CLOSE.
 CRITICAL, COMPLEX, CLOSE = 0.98, 1e-3, 0.05
 
 
 def sweep(parameters, index, dimension, search, settling, *, workers=1, progress=None):
-    """Find all motions along a sweep of one parameter; return a dict of registered variables.
+    """Find all motions along a sweep of one parameter; return dataset variables as a dict.
 
     The rows of packed `parameters` differ in the column `index`. `dimension` is the name of the
     parameter in this column. The dimensions of variables are (dimension, motion) for motions,
@@ -85,14 +85,14 @@ def sweep(parameters, index, dimension, search, settling, *, workers=1, progress
 
 
 def reached(data):
-    """Return the mask of the motions of a `sweep` to which a random or placed start leads."""
+    """Return a mask of the motions of a `sweep` to which a random or placed start leads."""
     return (data["motion_starts"][1] > 0) | (data["origin"][1] == flag("origin", "placed_start"))
 
 
 def _follow(source, target, index, settling, links, ends):
     """Follow all motions of the catalogue `source` to the next value; add the results to `target`.
 
-    `links` receives pairs of numbers of motions on one branch, `ends` a dict for each end found.
+    `links` receives the serial numbers of two motions on one branch, `ends` the ends of branches.
     """
     followed = [
         follow_stable(source.p, record["state"], record["period"], index, target.p[index])
@@ -144,7 +144,7 @@ def _end_event(record, multiplier, beyond):
 
 
 def _branches(catalogues, links):
-    """Return the branch number of each motion. Linked or matched motions are on one branch."""
+    """Return the branch index of each motion. Linked or matched motions are on one branch."""
     links = links + [
         (first.numbers[i], second.numbers[j])
         for first, second in pairwise(catalogues)
@@ -156,7 +156,7 @@ def _branches(catalogues, links):
 
 
 def _tables(catalogues, branches, dimension, starts):
-    """Return variables (dimension, motion): motions by descending max |Z1|, then empty entries."""
+    """Return variables (dimension, motion). The motions are sorted by descending max |Z1|."""
     width = max(len(catalogue.records) for catalogue in catalogues)
     records = np.zeros((len(catalogues), width), MOTION)
     records["outcome"] = flag("outcome", "absent")
@@ -190,8 +190,8 @@ def _tables(catalogues, branches, dimension, starts):
 class Catalogue:
     """Distinct motions at one value of the swept parameter, with packed parameters p.
 
-    Each motion has a record, a number from the iterator `numbering`, the flag `origin` (how the
-    motion was found), and the number of random starts that lead to the motion.
+    Each motion has a record, a serial number from the iterator `numbering`, a flag for how it was
+    found (`origins`), and the number of random starts that lead to it (`starts`).
     """
 
     def __init__(self, p, numbering):
@@ -200,7 +200,7 @@ class Catalogue:
         self.records, self.numbers, self.origins, self.starts = [], [], [], []
 
     def find(self, record):
-        """Return the index of the known motion that a record or its mirror image shows, or None."""
+        """Return the index of a motion that equals a record or its mirror image, or None."""
         for i, known in enumerate(self.records):
             if known["outcome"] != record["outcome"] or known["period"] != record["period"]:
                 continue
@@ -214,7 +214,7 @@ class Catalogue:
         return None
 
     def add(self, record, origin):
-        """Add a motion, or replace a known motion's record if max |Z1| grows; return the index."""
+        """Add a new motion, or update a known motion if max |Z1| is larger; return the index."""
         i = self.find(record)
         if i is None:
             i = len(self.records)
@@ -233,7 +233,7 @@ class Catalogue:
 
 
 def match_unsettled(first, second) -> list:
-    """Match unsettled motions of two neighbouring values by closest size; return index pairs."""
+    """Pair unsettled motions at neighbouring values that have similar sizes, the closest first."""
     pairs = sorted(
         (ratio, i, j)
         for i, one in enumerate(first)
@@ -251,9 +251,9 @@ def match_unsettled(first, second) -> list:
 
 
 def size_ratio(one, other):
-    """Return the ratio, at least 1, of max |Z1| of two motions of equal period.
+    """Return the larger of two motions' max |Z1| divided by the smaller.
 
-    Without a period max |Z1| may be small by chance. Then the ratio of `reach` is returned if less.
+    Without a period max |Z1| may be small by chance. Then a smaller ratio of `reach` is returned.
     """
     if one["maximum_displacement"] == other["maximum_displacement"]:
         return 1.0
@@ -287,8 +287,8 @@ def stable_orbits(p, motions, loose, tolerance, stop) -> np.ndarray:
     """Return states at the strobe, shape (k, 4), on stable orbits with contacts.
 
     On most orbits the primary mass moves nearly as in a known motion. So a start of Newton's method
-    has Z1 and Z1' from a row of `motions` (m, 2), strobe states of known motions, and Z2 and
-    Z1' - Z2' from a row of `loose` (n, 2). There are n starts, so rows of `motions` are repeated.
+    takes Z1, Z1' from a known motion, a row of `motions` (m, 2). It takes Z2, Z1' - Z2' from a row
+    of `loose` (n, 2). Each row of `loose` is used once, the rows of `motions` in turn.
     """
     found, none = [], np.empty((0, 4))
     if len(motions) == 0 or len(loose) == 0:

@@ -6,15 +6,15 @@ from impact_damper.kernel.compiling import kernel, kernel_only
 from impact_damper.kernel.equation import has_escaped
 from impact_damper.kernel.single import LENGTH, assign, side_of, state_in_step, step, workspace
 
-# STEPS_AT_ONCE: steps in one call of the kernel. ROWS: first number of rows of the log. To allocate
-# a larger log would take longer than a short motion.
+# STEPS_AT_ONCE: steps in one call of the kernel. ROWS: rows of the log, to which more are added as
+# needed. To allocate many rows at the beginning would take longer than a short motion.
 STEPS_AT_ONCE, ROWS = 50_000, 64
 
 
 def trace(p, state, begin, times, tolerance):
     """Return the states at increasing times, shape (n, 4), and the contacts, shape (k, 5).
 
-    Row of a contact: wall, begin, end, Z2' at begin, Z2' at end. After an escape states are NaN.
+    A contact's row: wall, begin, end, Z2' at begin, Z2' at end. States after an escape are NaN.
     """
     y, t, times = np.array(state, float), float(begin), np.ascontiguousarray(times, float)
     states, log = np.empty((len(times), 4)), np.empty((ROWS, 5))
@@ -68,7 +68,7 @@ def trace_steps(p, y, t, side, sample, contacts, times, tolerance, states, log):
 
 @kernel_only
 def record_beginning(log, contacts, side, t, speed):
-    """Begin a row of the contact log if a row is left; return the number of contacts begun."""
+    """Log the beginning of a contact if a row is left; return the new number of contacts."""
     if contacts < len(log):
         log[contacts, 0], log[contacts, 1], log[contacts, 2] = side, t, np.nan
         log[contacts, 3], log[contacts, 4] = speed, np.nan

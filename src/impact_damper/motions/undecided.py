@@ -1,10 +1,10 @@
 """Run undecided motions longer, until their outcome is certain.
 
-The strobe states of a quasi-periodic motion lie on one closed curve or several. The rotation number
-is the mean advance along a curve, here a weighted mean over N states. The weights and all their
-derivatives vanish at the first and last state. Such a mean converges faster than any power of 1/N
+The strobe states of a quasi-periodic motion lie on one or more closed curves. Its rotation number
+is the mean advance along a curve from state to state. Here the mean over N states is weighted. The
+weights fall so smoothly to 0 at both ends that the mean converges faster than any power of 1/N
 (S. Das, Y. Saiki, E. Sander and J. A. Yorke, Nonlinearity 30, 4111-4140, 2017). For a chaotic
-motion the weighted mean converges only as N^(-1/2).
+motion it converges only as N^(-1/2).
 """
 
 import math
@@ -21,34 +21,34 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE, one_period, polis
 from impact_damper.motions.watch import CONFIDENCE, LONGEST_PERIOD, NEAR, normalise
 
 # A run consists of blocks. FIRST: largest number of forcing cycles in the first block. BATCHES:
-# number of parts of a block. The standard error is computed from the means of the parts.
+# number of parts of a block, from whose means the standard error of a mean is computed.
 FIRST, BATCHES = 1500, 30
-# Smallest growth of a chaotic motion's tangent in a block, as a natural logarithm. If a rounding
-# error makes a motion leave an unstable orbit, the growth is only ln(1e16) = 37.
+# In a block a small disturbance of a chaotic motion grows by more than exp(GROWN). When rounding
+# errors make a motion leave an unstable orbit, they grow by less, about 1e16 = exp(37).
 GROWN = 40.0
 # A Lyapunov exponent counts as 0 if its modulus is at most NEUTRAL standard errors.
 NEUTRAL = 3.0
-# Search for an orbit. LONGEST: longest period in forcing cycles. REACH: largest correction.
+# Newton's method. LONGEST: longest period in forcing cycles. REACH: bound on the corrections.
 LONGEST, REACH = 256, 1e-2
-# States lie on known closed curves if each state is nearer than NEIGHBOUR to a point of a curve.
+# States lie on known closed curves if each is nearer than this to a known point of a curve.
 NEIGHBOUR = 1e-3
 # Fields that are copied from a known quasi-periodic motion to a motion on the same closed curves.
 TORUS = ["outcome", "lyapunov_exponent", "lyapunov_error"]
 TORUS += ["first_frequency", "second_frequency", "frequency_error"]
-# Rotation number. AGREEMENT: largest error. FEWEST: smallest number of points to compute it from.
+# Rotation number. AGREEMENT: largest accepted error. FEWEST: smallest number of points needed.
 AGREEMENT, FEWEST = 1e-8, 100
-# Advances of an angle modulo 1 lie on a circle, cut in an empty interval not below INTERVAL.
+# Advances, in revolutions modulo 1, have a mean only if none of them lies in a range this wide.
 INTERVAL = 0.02
-# Points are sorted by phase. TURN: largest change of the angle from point to point, in revolutions.
-# WANDERING: largest sum of the moduli of all changes of the angle from point to point.
+# Points in their order along a curve. TURN: largest change of the angle from point to point, in
+# revolutions. WANDERING: largest sum of the moduli of these changes.
 TURN, WANDERING = 0.05, 3.0
 
 
 @kernel
 def run_block(p, y, tangent, states, growth, stop):
-    """Run a motion and its tangent (1, 4) in place over the forcing cycles of a block.
+    """Run a motion and its `tangent` (1, 4), a small disturbance, for n forcing cycles.
 
-    After each cycle `states` (n, 4) receives the state, and `growth` (n,) the logarithm of the
+    For each cycle `states` (n, 4) receives the last state, and `growth` (n,) the logarithm of the
     tangent's growth. Return the number of contacts, and whether the motion has escaped.
     """
     work = workspace()
@@ -69,7 +69,7 @@ def run_block(p, y, tangent, states, growth, stop):
 def name_undecided(parameters, motions, limit, further, stop):
     """Continue the forced motions that `settle_many` left unresolved; complete their records.
 
-    Each block is twice as long as the one before. Together they have at most `further` cycles.
+    A motion runs in blocks, each twice as long as the last, for at most `further` cycles in all.
     """
     curves = []
     for i in np.flatnonzero(motions["outcome"] == records.UNRESOLVED):
@@ -144,7 +144,7 @@ def _exponent(growth):
 
 
 def _grows(growth, mean, error):
-    """Return whether a tangent certainly grows in a block, also in the block's last quarter."""
+    """Return whether a tangent certainly grows in a block, and still in the last quarter."""
     lasting = np.mean(growth[-len(growth) // 4 :]) > mean / 2
     return lasting and mean > CONFIDENCE * error and np.sum(growth) > GROWN
 
@@ -157,7 +157,7 @@ def _on_orbit(p, record, states, contacts, limit):
     for n in np.flatnonzero(near) + 1:
         y, n = last.copy(), int(n)
         found, residual, multiplier = polish(p, y, n, REACH, POLISH_TOLERANCE)
-        # n ascends, so the first orbit that is found does not repeat sooner.
+        # The periods n ascend, so the first orbit found is found with its smallest period.
         if not found or abs(multiplier) >= 1:
             continue
         duration = n * 2 * math.pi / p[FREQUENCY]
@@ -193,14 +193,14 @@ def _quasi_periodic(p, record, states, mean, error):
 
 
 def birkhoff_average(values):
-    """Return the mean of a sequence with weights exp(-1/(t (1 - t))); t increases from 0 to 1."""
+    """Return a mean with the weights exp(-1/(t (1 - t))), where t runs from 0 to 1 in order."""
     t = np.arange(1, len(values) + 1) / (len(values) + 1)
     weights = np.exp(-1 / (t * (1 - t)))
     return np.sum(weights * values) / np.sum(weights)
 
 
 def find_rotation(points):
-    """Return the rotation number of complex points on a closed curve, and the number's error.
+    """Return the rotation number of points (complex numbers) on a closed curve, and its error.
 
     The rotation number (revolutions, 0 to 1/2) is the mean advance of the angle around the mean
     point. The curve is first stretched until its spread is equal in all directions, because on a
@@ -211,7 +211,7 @@ def find_rotation(points):
         return None
     angle = np.angle(_rounded(points)) / (2 * math.pi)
     advance = np.diff(angle) % 1
-    # The advances are points on a circle. Cut the circle in the widest interval between two points.
+    # Advances are known modulo 1. Choose a range of length 1 that begins where no advance is near.
     order = np.sort(advance)
     intervals = np.diff(order, append=order[0] + 1)
     widest = np.argmax(intervals)
@@ -237,7 +237,7 @@ def _rounded(points):
 
 
 def _goes_around_once(angle, number):
-    """Return whether angles (revolutions), sorted by index x number mod 1, make one smooth turn."""
+    """Return whether the angle of points, in their order along the curve, makes one smooth turn."""
     order = np.argsort(np.arange(len(angle)) * number % 1)
     turns = np.diff(angle[order], append=angle[order[0]])
     turns -= np.round(turns)

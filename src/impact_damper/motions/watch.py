@@ -1,9 +1,9 @@
 """Judge once in each forcing cycle whether a motion has settled to an orbit or is chaotic.
 
-Near an orbit of period n the distances between states n cycles apart decrease geometrically. Once
-the sum of all further distances is small, Newton's method looks for a stable orbit close by. The
-sum is large in a slow passage near a fold, which could be mistaken for an orbit. If the sum is
-between NEAR and 0.01, the motion must also follow the orbit's linearised map (`is_linear`).
+Near an orbit of period n the distances between states n cycles apart decrease geometrically. The
+sum of all further distances estimates how far away the orbit is. If the sum is small, Newton's
+method looks for a stable orbit close by. In a slow passage near a fold, which can look like an
+orbit, the sum is large. If the sum is between NEAR and 0.01, `is_linear` must also hold.
 """
 
 import math
@@ -27,24 +27,24 @@ from impact_damper.motions.strobe_map import (
 # LONGEST_PERIOD: longest period of an orbit in forcing cycles. RING: number of strobe states kept.
 LONGEST_PERIOD = 12
 RING = 2 * LONGEST_PERIOD + 1
-# CONFIDENCE: smallest Lyapunov exponent of chaos, in standard errors. WEAK: largest Lyapunov
-# exponent of weak chaos, in units of 1/T.
+# A motion is chaotic if its Lyapunov exponent exceeds CONFIDENCE standard errors. An exponent below
+# WEAK, in units of 1/T, is judged only at the end of a run.
 CONFIDENCE, WEAK = 4.0, 0.05
-# BLOCK: forcing cycles in a batch. The logarithms of a tangent's growth in a batch are summed.
-# RECENT: number of last batches in which the tangent of a chaotic motion must still grow.
+# A tangent is a small disturbance of a motion. BLOCK: forcing cycles in a batch, over which its
+# growth is measured. RECENT: number of last batches in which it must still grow if there is chaos.
 BLOCK, RECENT = 10, 5
 # NEAR, NEAREST: largest and smallest distance from an orbit at which Newton's method is tried.
 NEAR, NEAREST = 1e-4, 1e-9
-# Early trials of Newton's method. EARLY: distances from an orbit, above NEAR. RETURNS: number of
-# distances between states a period apart that must have decreased. NONLINEAR: largest nonlinear
-# part in `is_linear`. APPROACH: largest number of further periods that `is_linear` computes.
+# Early trials of Newton's method. EARLY: distances from an orbit at which they occur, above NEAR.
+# RETURNS: number of last distances, between states a period apart, that must have decreased.
+# For `is_linear`: NONLINEAR is a bound on the nonlinear part, APPROACH on the periods computed.
 EARLY, RETURNS, NONLINEAR, APPROACH = (1e-2, 1e-3), 4, 0.1, 1000
-# Largest energy of an unforced motion that counts as rest, divided by the motion's first energy.
+# Without forcing, a motion is at rest if its energy is at most this fraction of its first energy.
 REST = 1e-9
 # Data of one motion while it runs. untouched: forcing cycles since the last contact. near, early:
 # distances at which Newton's method is tried next. periods: number of cycles with a tangent. batch:
-# logarithm of the tangent's growth in this batch. mean: mean over all complete batches. squares:
-# sum of squared deviations from the mean. recent: logarithms in the last complete batches.
+# logarithm of the tangent's growth in this batch. mean: mean of `batch` over complete batches.
+# squares: sum of squared deviations from `mean`. recent: values of the last complete batches.
 SEEN = np.dtype(
     [(name, "i8") for name in ("index", "strobes", "untouched", "periods")]
     + [(name, "f8") for name in ("near", "early", "energy", "batch", "mean", "squares")]
@@ -80,7 +80,7 @@ def follow_tangent(tangent, growth):
 
 @kernel
 def exponent(growth):
-    """Return mean growth in a batch, the mean's error, and whether recent growth exceeds mean/2."""
+    """Return a tangent's mean growth in a batch, its standard error, and whether it still grows."""
     count = growth.periods // BLOCK
     recent = 0.0
     for i in range(RECENT):
@@ -91,7 +91,7 @@ def exponent(growth):
 
 @kernel_only
 def nearby_period(ring, k, weight, floor, tolerance):
-    """Return the period of an orbit at most `tolerance` away from the motion, 0 without an orbit.
+    """Return the period of an orbit that seems to be within `tolerance` of the motion, or 0.
 
     `ring[k % RING]` is the last of k + 1 strobe states. `floor` is the error of the integration.
     """
@@ -151,12 +151,12 @@ def approaches(ring, k, n, weight):
 
 @kernel
 def is_linear(p, y, ring, k, n, weight):
-    """Return whether a motion has approached the orbit of y (period n) linearly in two periods.
+    """Return whether the approach to an orbit is so nearly linear that the motion will reach it.
 
-    In a period the difference e from the orbit becomes M e + r, with a matrix M. If |r| <= c |e|^2
-    and c times the sum of all further |e| is small, the motion tends to the orbit. The number c is
-    measured in the last two periods only, which lie farther from the orbit than all later periods.
-    In longer runs none of 7 000 motions left its orbit: at most 0.05 % leave (95 % confidence).
+    y is a state of the orbit, n its period. In a period a difference e from the orbit becomes
+    M e + r, with a matrix M and |r| <= c |e|^2. The motion is accepted if c times the sum of all
+    further |e| is small. The number c is measured in the last two periods. In longer runs none of
+    7 000 accepted motions left its orbit: at most 0.05 % leave (95 % confidence).
     """
     _, matrix, contacts = period_map(p, y, n, POLISH_TOLERANCE)
     # A loose mass that drifts slowly may still reach a wall.
@@ -194,7 +194,7 @@ def push_forward(matrix, apart, ahead):
 
 @inlined
 def leave_transient(p, out):
-    """Replace the transient's Lyapunov exponent by the orbit's, from the orbit's multiplier."""
+    """Compute an orbit's Lyapunov exponent from its multiplier, in place of the transient's."""
     duration = out.period * 2.0 * math.pi / p[FREQUENCY]
     out.lyapunov_exponent = math.log(abs(out.multiplier)) / duration
     out.lyapunov_error = 0.0 if out.lyapunov_exponent < 0.0 else np.nan
@@ -250,13 +250,13 @@ def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit,
 
     - when it has settled, diverged or escaped, or after `limit` cycles;
     - as at_rest if there is no forcing and hardly any energy is left (REST);
-    - as non_colliding if it has settled without contacts, or if the primary mass is on an orbit and
-      the loose mass has touched no wall for `patience` cycles and would drift by less than 1 % of
-      the clearance in `limit` cycles. If the loose mass drifts faster: as drifting, after `limit`
-      cycles;
+    - as non_colliding if it has settled without contacts;
+    - as non_colliding if the primary mass is on an orbit, and the loose mass has touched no wall
+      for `patience` cycles and drifts by less than 1 % of the clearance in `limit` cycles; if it
+      drifts faster, as drifting after `limit` cycles;
     - as chaotic after `patience` cycles if the largest Lyapunov exponent exceeds CONFIDENCE
-      standard errors and the tangent still grows (it no longer grows after a transient). A slow
-      spiral can look like weak chaos, so an exponent below WEAK is judged just before `limit`.
+      standard errors and the tangent still grows. A slow spiral can look like weak chaos, so an
+      exponent below WEAK is judged just before `limit`.
 
     After `patience`/2 cycles, the tangent and `out.reach` are updated in each cycle.
     """
