@@ -175,7 +175,7 @@ def response(
 
 
 def different(sizes, shares, alike=1e-4):
-    """Return a dictionary {size: sum of shares} by ascending size; close sizes count as one."""
+    """Add up the shares of nearly equal sizes. Return {size: share} by ascending size."""
     found, last = {}, -1.0
     for size, share in sorted(zip(map(float, sizes), map(float, shares), strict=True)):
         if size > last * (1 + alike):
@@ -192,7 +192,7 @@ def migrate(
     force: Force = False,
     as_json: AsJson = False,
 ):
-    """Find gaps with which a release of the damper leads to the small motion of the machine."""
+    """Find gaps with which switching the damper off leaves the machine in its small motion."""
     import numpy as np
 
     from impact_damper.command.machine_file import design_arguments
@@ -258,7 +258,7 @@ def report(
 
 
 def read(path):
-    """Return the content of a YAML file and the `Machine`. Local imports make `--help` fast."""
+    """Return the content of a YAML file, and its `Machine`. Local imports make `--help` fast."""
     from impact_damper.command.machine_file import read_machine_file
     from impact_damper.model.machine import Machine
 
@@ -307,7 +307,7 @@ def quantity(text):
 
 
 def write_report(data, file, folder):
-    """Write the page of a dataset into a folder; return the page's path. `file` has the dataset."""
+    """Write the page of a dataset into a folder. Return its path. `file` is the dataset's file."""
     from impact_damper.plot.pages.render import write_page
 
     name = Path(data.attrs.get("input_file", file.name)).stem
@@ -317,7 +317,7 @@ def write_report(data, file, folder):
 
 
 def kept(data, output):
-    """Save a dataset if `output` is a path. Return a list of the lines to print about the file."""
+    """Save a dataset if `output` is a path. Return the line to print about it, in a list."""
     if output is None:
         return []
     from impact_damper.data.datasets import save

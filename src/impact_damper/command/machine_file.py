@@ -33,7 +33,7 @@ class AllowedQuantity(Allowed):
         return core_schema.with_info_plain_validator_function(self._quantity)
 
     def _quantity(self, value, info):
-        # If `context` is true, the values were checked before. This skips the slow import of pint.
+        # If `context` is true, the values were checked before. The slow import of pint is skipped.
         if info.context:
             return value
         if any((absolute_value(value, each) or -1) > 0 for each in self.absolute):
@@ -49,13 +49,13 @@ class AllowedQuantity(Allowed):
 def quantity_of(quantity, meaning="", absolute=(), **bounds):
     """Return the type of a quantity within bounds.
 
-    A value may also be text with a unit of a quantity in `absolute`, such as "0.2 mm".
+    `absolute` names other quantities. Text in one of their units is allowed too, such as "0.2 mm".
     """
     return Annotated[Any, AllowedQuantity(quantity, bounds, meaning, absolute)]
 
 
 def fields_of(part, *, optional=False):
-    """Return the fields of a dataclass for a pydantic model. If `optional`, none is required."""
+    """Return fields of a pydantic model from a dataclass. If `optional`, no field is required."""
     found = {}
     for each in fields(part):
         facts = each.metadata
@@ -66,7 +66,7 @@ def fields_of(part, *, optional=False):
 
 
 class Given(section.Section):
-    """Base of the models whose keys are the arguments of a dataclass in SI units."""
+    """Base of pydantic models. Their keys are the arguments of a dataclass in SI units."""
 
     def values(self) -> dict:
         """Return the values that are given, keyed by name."""
@@ -85,7 +85,7 @@ class Span(section.Section):
 
 
 def span_of(quantity, meaning):
-    """Return the model of evenly spaced values of a physical quantity."""
+    """Return a subclass of `Span` for a physical quantity."""
     end = quantity_of(quantity, meaning, above=0)
     points = points_of("points of the grid")
     return create_model("Span", __base__=Span, first=end, last=end, points=points)
@@ -118,7 +118,7 @@ Body = create_model("Body", __base__=Given, **fields_of(Machine))
 
 
 def deviation_of(what, *absolute):
-    """Return an optional field: the deviation of `what`, a fraction or in units of `absolute`."""
+    """Return an optional field for the deviation of `what`. `absolute` is as in `quantity_of`."""
     meaning = f"largest deviation of {what}, as a fraction of it"
     return quantity_of("number", meaning, absolute, least=0, most=0.9), None
 
@@ -178,7 +178,7 @@ class MachineEntry(section.Section):
             yield f"{section.dotted(path)}: {error}" if path else str(error)
 
     def _lacking(self, path):
-        """Yield a line for each missing key, and one if stiffness and contact are both given."""
+        """Yield a message for each missing key, and if stiffness and contact are both given."""
         rival, ball = self.absorber.values(), self.contact.values()
         for key in Rival.model_fields:
             if rival and key not in rival:

@@ -1,4 +1,4 @@
-"""Types of values in YAML files, the base class of sections, and lines that report problems.
+"""Types of values in YAML files, the base class of sections, and messages about problems.
 
 The types are strict: 3.0 is no whole number; NaN, infinity and text are no numbers.
 """
@@ -25,14 +25,14 @@ from pydantic_core import PydanticCustomError, core_schema
 from impact_damper.model.bounds import POINTS_RANGE, RUNS_RANGE, nearest
 from impact_damper.model.text import plain
 
-# Tags that pydantic adds to the path of a number or a range. No key can have these names.
+# pydantic inserts these words into the path of a wrong value. No key can have these names.
 NUMBER, RANGE = "<number>", "<range>"
 
 
 class Allowed:
     """The allowed values of a key. An error says "must be" and `words`, not pydantic's message.
 
-    For a list or a mapping, `test` is a function that returns whether the value's form is allowed.
+    `test` is a function for lists and mappings. It returns whether the form is allowed.
     """
 
     def __init__(self, words, meaning="", why="", test=None):
@@ -66,7 +66,7 @@ class Allowed:
 
 
 def number(meaning="", *, above=None, least=None, most=None, why="", also=""):
-    """Return the type of a finite number within bounds. Errors name `also` as allowed, too."""
+    """Return the type of a finite number within bounds. Messages add "or", then `also`."""
     bounds = {"greater than": above, "at least": least, "at most": most}
     words = [f"a finite number{also and f' or {also}'}", *_bounds(bounds)]
     kind = confloat(strict=True, allow_inf_nan=False, gt=above, ge=least, le=most)
@@ -74,14 +74,14 @@ def number(meaning="", *, above=None, least=None, most=None, why="", also=""):
 
 
 def number_or_word(word, meaning, **bounds):
-    """Return the type of a finite number within bounds, or of the word `word`."""
+    """Return the type of a value that is a finite number within bounds, or the word `word`."""
     of_number = number(meaning, **bounds, also="text")
     words = f"{of_number.__metadata__[-1].words}, of the form {word}"
     return Annotated[of_number | Literal[word], Allowed(words, meaning)]
 
 
 def number_or_range(model, meaning, **bounds):
-    """Return the type of a finite number within bounds, or of a range that `model` checks."""
+    """Return the type of a value that is a finite number, or a range that `model` checks."""
     of_number = number(meaning, **bounds, also="keys with values")
 
     def kind(value):
@@ -99,7 +99,7 @@ def count(meaning, *, least, most, why=""):
 
 
 def points_of(meaning):
-    """Return the type of the number of points of a grid."""
+    """Return the type of a number of grid points."""
     return count(meaning, **POINTS_RANGE)
 
 
@@ -144,7 +144,7 @@ def several(item, meaning="", *, least=0, most=None, distinct=False):
 
 
 def entries(model):
-    """Return the type of a mapping from freely chosen names to entries of the type `model`."""
+    """Return the type of a mapping. The user chooses its keys, and `model` checks its values."""
 
     def test(value):
         return isinstance(value, dict) and len(value) > 0
@@ -179,13 +179,13 @@ class Section(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     def contradictions(self, path, config):
-        """Yield a line for each contradiction. `path` leads from `config` to this section."""
+        """Yield a message for each contradiction. `path` has the keys from `config` to here."""
         yield from ()
 
     @model_validator(mode="wrap")
     @classmethod
     def _name_keys(cls, value, handler):
-        """Report an unknown key with all known keys, and a missing key with all needed keys."""
+        """Add the known keys to a message about an unknown key, or the needed keys if one lacks."""
         try:
             return handler(value)
         except ValidationError as error:
@@ -196,7 +196,7 @@ class Section(BaseModel):
 
     @classmethod
     def _worded(cls, value, detail):
-        """Return the error `detail` of pydantic with a message of this package."""
+        """Return an error of pydantic, `detail`, with a message of this package."""
         kind, path, given = detail["type"], detail["loc"], detail["input"]
         known = sorted(cls.model_fields)
         if not path:
@@ -239,7 +239,7 @@ def missing(path, reason) -> str:
 
 
 def increasing(path, values, reason):
-    """Yield a line unless the values of a list increase."""
+    """Yield a message if the values of a list do not increase."""
     if sorted(set(values)) != values:
         yield problem(path, values, f"must increase ({reason})")
 
@@ -260,7 +260,7 @@ def dotted(path) -> str:
 
 
 def problems_of(error) -> list:
-    """Return a line for each problem that pydantic found, sorted by the path of keys."""
+    """Return a message for each problem that pydantic found, sorted by the path of keys."""
     details = error.errors(include_url=False)
     # A path holds keys (text) and positions in lists (int). Python cannot compare text with int.
     return [_line(detail) for detail in sorted(details, key=lambda d: [*map(str, d["loc"])])]

@@ -1,6 +1,6 @@
 """Short calls that compile and cache every kernel (numba function) of the library.
 
-The functions below import modules, because the import of some modules compiles kernels.
+Modules are imported inside the functions, because some of them compile kernels when imported.
 """
 
 import numpy as np
@@ -9,8 +9,8 @@ from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator
 
 OSCILLATOR = Oscillator(damping=0.215)
-# At FREQUENCY, motions of OSCILLATOR and DAMPER settle soon. Newton's method refines settled
-# motions, so the kernels of Newton's method are compiled too.
+# At FREQUENCY, motions of OSCILLATOR and DAMPER settle after few cycles. Newton's method refines
+# settled motions, so its kernels are compiled too.
 DAMPER = Damper(mass_ratio=0.25, clearance=1.0, restitution=0.75)
 FREQUENCY = 1.95
 

@@ -39,7 +39,7 @@ def variable(name, data, dims=None) -> xr.Variable:
 
 
 def shown_variable(name, values):
-    """Return a registered variable whose `values` are in the unit for machines, such as mm."""
+    """Return a registered variable. Its `values` are in a unit for machines already, such as mm."""
     found = variable(name, values)
     found.attrs["units"] = QUANTITIES[VARIABLES[name].kind].label
     return found
@@ -89,12 +89,12 @@ def in_si(data, machine, damper=None) -> xr.Dataset:
 
 
 def from_si(data, scales) -> xr.Dataset:
-    """Return a dataset in dimensionless numbers; `scales` are the scales of its machine, if any."""
+    """Return a dataset converted to dimensionless numbers, by the scales of its machine."""
     return _converted(data, lambda values, unit: values / unit, scales) if scales.si else data
 
 
 def _converted(data, convert, scales):
-    """Return a dataset with the values convert(values, unit of its kind) for each variable."""
+    """Return a copy of a dataset. Variables with a unit get the values convert(values, unit)."""
     found = {}
     for name, each in data.variables.items():
         kind = _kind(name, data)
@@ -110,7 +110,7 @@ def _converted(data, convert, scales):
 
 
 def _kind(name, data):
-    """Return the kind of a variable; if it is "followed", the kind of the parameter that varies."""
+    """Return the kind of a variable. "followed" becomes the kind of the parameter that varies."""
     kind = VARIABLES[name].kind
     if kind == "followed":
         parameter = parameters_of(data).get("parameter")
@@ -134,12 +134,12 @@ def _name_unit(variable, kind):
 
 
 def flag(name, meaning) -> int:
-    """Return the stored number of a named value: `flag("outcome", "settled")` is 1."""
+    """Return the number that stands for a named value: `flag("outcome", "settled")` is 1."""
     return VARIABLES[name].flags[meaning]
 
 
 def named(data, name) -> str:
-    """Return the name of the single number in the flag variable `name`, such as "settled"."""
+    """Return the single value of the flag variable `name` as a word, such as "settled"."""
     return decode(data[name]).item()
 
 
@@ -190,12 +190,12 @@ def decode(values) -> xr.DataArray:
 
 
 def is_settled(motions):
-    """Return the mask of motions with the outcome "settled", in a dataset or an array."""
+    """Return a boolean array that is True for motions with the outcome "settled"."""
     return np.asarray(motions["outcome"]) == flag("outcome", "settled")
 
 
 def touches_no_wall(motions):
-    """Return the mask of motions whose loose mass touches no wall, in a dataset or an array."""
+    """Return a boolean array that is True for motions in which the loose mass touches no wall."""
     names = ("non_colliding", "drifting")
     return np.isin(motions["outcome"], [flag("outcome", name) for name in names])
 
@@ -211,7 +211,7 @@ def oscillator_of(data) -> Oscillator:
 
 
 def damper_of(data, **others) -> Damper:
-    """Return the damper of a dataset; `others` are fields that vary, so the dataset lacks them."""
+    """Return the damper of a dataset. `others` are fields that vary over the dataset."""
     return Damper(**pick(Damper, parameters_of(data)), **others)
 
 
@@ -221,7 +221,7 @@ def has_damper(data) -> bool:
 
 
 def save(data, path) -> None:
-    """Write a dataset to NetCDF with the attributes of `seal`; the file appears when complete."""
+    """Write a dataset to a NetCDF file, with a checksum. The file appears when it is complete."""
     whole_numbers = [name for name in data.data_vars if data[name].dtype.kind in "iub"]
     encoding = {name: {"_FillValue": None} for name in (*data.coords, *whole_numbers)}
     sealed = data.assign_attrs(seal(data.variables, path))
@@ -234,7 +234,7 @@ def save(data, path) -> None:
 
 
 def load(path) -> xr.Dataset:
-    """Read the dataset that `save` wrote to a path; raise BrokenFileError for any other content."""
+    """Read a dataset from a file of `save`. Raise BrokenFileError if the file is another."""
     check_length(path)
     try:
         data = xr.load_dataset(path, engine="netcdf4")
@@ -248,7 +248,7 @@ def load(path) -> xr.Dataset:
         raise BrokenFileError(f"{path} holds {held}")
     if data.attrs.get("sha256") != sealed["sha256"]:
         raise BrokenFileError(f"{path} holds other numbers than were written")
-    # Drop the attributes of `seal`, which hold for this file only; `save` will make new ones.
+    # Drop the attributes of `seal`, which belong to this file. `save` makes new ones.
     data.attrs = {name: value for name, value in data.attrs.items() if name not in sealed}
     return data
 

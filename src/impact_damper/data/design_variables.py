@@ -2,7 +2,7 @@
 
 from impact_damper.data.variables import register
 
-# A gap keeps the promise if largest displacement/promised displacement is at most KEEPS.
+# The promised displacement holds at another gap up to an excess by the factor KEEPS.
 # A damper is worth building if it lowers the largest displacement by the fraction WORTH or more.
 KEEPS, WORTH = 1.1, 0.25
 

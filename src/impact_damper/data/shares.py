@@ -1,4 +1,4 @@
-"""Binomial shares, bounds of quantiles, and escape rates, with 95 % confidence."""
+"""Shares of random starts, bounds on quantiles, and rates of events, with 95 % confidence."""
 
 import math
 
@@ -14,7 +14,7 @@ DOUBT = 0.05
 
 
 def wilson_intervals(successes, total):
-    """Return the ends of Wilson's 95 % intervals of successes/total (total > 0), shape (..., 2)."""
+    """Return the ends of Wilson's 95 % interval for successes/total (total > 0), shape (..., 2)."""
     k, n = np.broadcast_arrays(np.asarray(successes, float), total)
     middle, square = k + QUANTILE**2 / 2, QUANTILE**2
     half = QUANTILE * np.sqrt(k * (n - k) / n + square / 4)
@@ -31,23 +31,23 @@ def wilson(successes, total):
 
 
 def bounding_rank(share, total, doubt=DOUBT) -> int:
-    """Return k: at least a share of all values does not exceed the k-th largest of `total` samples.
+    """Return the rank k of the sample that bounds a share of all values from above.
 
-    This holds with the confidence 1 - doubt for any distribution of the values (S. S. Wilks, Ann.
-    Math. Stat. 12, 1941). If there are too few samples, k is 0.
+    Of `total` random samples the k-th largest is a bound with the confidence 1 - doubt, for any
+    distribution (S. S. Wilks, Ann. Math. Stat. 12, 1941). With too few samples k is 0.
     """
     return int(np.sum(bdtr(np.arange(total), total, 1 - share) <= doubt))
 
 
 def starts_needed(share) -> int:
-    """Return the least number of samples for which `bounding_rank` is 1 or more."""
+    """Return the least number of samples with which `bounding_rank` finds a bound."""
     return math.ceil(math.log(DOUBT) / math.log(share))
 
 
 def escape_rate(lives, horizon):
-    """Return the rate at which runs end within a horizon, and its 95 % interval, shape (3,)."""
+    """Return the rate at which runs end, per cycle, and its 95 % interval, shape (3,)."""
     captures = np.sum(lives <= horizon)
     exposure = np.sum(np.minimum(lives, horizon))
-    # Interval of a Poisson count: quantiles of the gamma distribution.
+    # The interval of a Poisson count has quantiles of the gamma distribution as ends.
     lower = gammaincinv(captures, 0.025) if captures else 0.0
     return np.array([captures, lower, gammaincinv(captures + 1, 0.975)]) / exposure

@@ -1,4 +1,4 @@
-"""The motions found in a sweep of a parameter, and runs of True in a mask."""
+"""The motions found in a sweep of a parameter, and stretches of True in a boolean array."""
 
 from typing import NamedTuple
 
@@ -10,9 +10,9 @@ NAMES = {value: name for name, value in OUTCOME.items()}
 
 
 class Family(NamedTuple):
-    """A motion over a sweep. `period`: in cycles, or 0. `starts`: number of starts that lead to it.
+    """A motion found over a range of a sweep. `starts` counts the random starts that lead to it.
 
-    `places` is the mask of this motion in arrays of the sweep, shape (parameter values, motions).
+    `places`, shape (parameter values, motions), is True where arrays of the sweep describe it.
     """
 
     outcome: str
@@ -22,7 +22,7 @@ class Family(NamedTuple):
 
 
 def families(data) -> list[Family]:
-    """Return the motions (branches) of a sweep, by descending number of their starts."""
+    """Return the motions of a sweep. The motion to which most starts lead comes first."""
     branch, starts = data["branch"].values, data["motion_starts"].values
     found = []
     for branch_number in np.unique(branch[branch >= 0]):
@@ -35,5 +35,5 @@ def families(data) -> list[Family]:
 
 
 def runs_of_true(mask) -> np.ndarray:
-    """Return the first index of each run of True and the index after the run, shape (n, 2)."""
+    """Return the first index of each stretch of True and the index after it, shape (n, 2)."""
     return np.flatnonzero(np.diff(np.asarray(mask, int), prepend=0, append=0)).reshape(-1, 2)

@@ -58,7 +58,7 @@ def register(table) -> None:
 
 
 def _named_values(text):
-    """Return the flags listed in a text, or the flags of the variable it names; None for ""."""
+    """Return {name: number} for a text such as "absent 0, found 1". It may name a variable too."""
     text = text.strip()
     if not text or text in VARIABLES:
         return VARIABLES[text].flags if text else None
@@ -66,7 +66,7 @@ def _named_values(text):
     return {name: int(value) for name, value in pairs}
 
 
-# Labels of states without attractor. `mixed`: the attractor depends on the loose mass's place.
+# Labels of states without one attractor. `mixed`: the place of the loose mass decides which.
 BASIN_LABEL = {
     "unresolved": -1,
     "escaped": -2,

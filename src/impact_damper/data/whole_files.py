@@ -40,7 +40,7 @@ def whole(path):
 
 
 def check_writable(path):
-    """Return a path or None. Raise OSError if no file can be written there."""
+    """Return the path unchanged. Raise OSError if no file can be written there. None is allowed."""
     if path is not None:
         probe = path.with_name(f"{path.name}.check")
         with whole(probe) as part:
@@ -50,7 +50,7 @@ def check_writable(path):
 
 
 def _reason(folder, error):
-    """Return in one line why a file could not be written, found by writing a trial file.
+    """Return one line that says why a file could not be written. A trial file shows the reason.
 
     The messages of the NetCDF library are vague, and wrong if the disk is full.
     """
@@ -67,7 +67,7 @@ def _reason(folder, error):
 
 
 def check_length(path) -> None:
-    """Raise BrokenFileError if the first bytes of a file show that it is no whole NetCDF-4 file."""
+    """Raise BrokenFileError if a file is not NetCDF-4, or has not the length in its header."""
     with open(path, "rb") as file:
         start = file.read(LENGTH.stop)
     if not start.startswith(SIGNATURE):

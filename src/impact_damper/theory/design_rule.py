@@ -1,4 +1,4 @@
-"""Design rule (19) of the paper for the clearance. Dry runs import this, so it needs no NumPy."""
+"""The paper's design rule (19) for the clearance, without NumPy, for fast dry runs of Snakemake."""
 
 import math
 

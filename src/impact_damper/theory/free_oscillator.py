@@ -12,12 +12,12 @@ from numpy.polynomial import Polynomial
 from impact_damper.model.bounds import check_frequency
 from impact_damper.theory.roots import polynomial_roots
 
-# Rounding may lift an amplitude or its square above a bound, by this fraction of the bound.
+# Rounding may lift an amplitude above its bound. ROUNDING is the relative excess that is allowed.
 ROUNDING = 1e-9
 
 
 class FreeSolutions(NamedTuple):
-    """Solutions at one frequency: amplitudes a (ascending) and phases t1, shape (count,)."""
+    """All solutions at one frequency: ascending amplitudes a, and phases t1, shape (count,)."""
 
     amplitude: np.ndarray
     phase: np.ndarray
@@ -46,7 +46,7 @@ def free_solutions(oscillator, frequency) -> FreeSolutions:
     drag, hardening = oscillator.damping * frequency, oscillator.hardening
     terms = [-(force**2), detuning**2 + drag**2, 2 * hardening * detuning, hardening**2]
     squares = polynomial_roots(terms)
-    # If k3 is tiny, rounding errors produce a wrong root, far above the bound f/(h W) of a.
+    # If k3 is tiny, rounding errors produce a wrong root. It lies far above f/(h W), a bound on a.
     squares = squares[squares <= (force / drag) ** 2 * (1 + ROUNDING)]
     amplitude = np.sqrt(squares)
     inline = amplitude * (detuning + hardening * squares)
@@ -54,7 +54,7 @@ def free_solutions(oscillator, frequency) -> FreeSolutions:
 
 
 def main_solutions(oscillator, frequency) -> FreeSolutions:
-    """Return the solutions up to the amplitude of the peak; all solutions if g >= 0."""
+    """Return the solutions. With a softening spring, leave out amplitudes above the peak's."""
     free = free_solutions(oscillator, frequency)
     if oscillator.hardening >= 0:
         return free
@@ -63,7 +63,7 @@ def main_solutions(oscillator, frequency) -> FreeSolutions:
 
 
 def balance_amplitudes(oscillator, frequency):
-    """Return the amplitudes of `main_solutions`; without a peak, the least of `free_solutions`."""
+    """Return the amplitudes of `main_solutions`, or the smallest amplitude if there is no peak."""
     try:
         return main_solutions(oscillator, frequency).amplitude
     except ValueError:
@@ -73,8 +73,8 @@ def balance_amplitudes(oscillator, frequency):
 def resonance(oscillator, frequency) -> Resonance:
     """Return amplitude and phase on the branch of the response curve that has the peak.
 
-    The branch ends at the upper fold or, with a softening spring, at the fold next to the peak.
-    Beyond this fold, return the amplitude at the fold, and None as the phase.
+    The branch ends at the fold next to the peak. Beyond this fold, return the amplitude at the
+    fold, and None as the phase.
     """
     free = main_solutions(oscillator, frequency)
     folds = free_folds(oscillator)
@@ -89,8 +89,8 @@ def resonance(oscillator, frequency) -> Resonance:
 def maximum_response(oscillator) -> Point:
     """Return the maximum of the free response curve over W.
 
-    The curve has the amplitude a at the roots W of (1 - U^2/a^2) W^4 + (h^2 - 2 m - 2 F U/a^2) W^2
-    + m^2 - F^2/a^2 = 0 with m = wl^2 + g a^2. At the maximum both roots W^2 are equal.
+    The amplitude is a at the roots W of (1 - U^2/a^2) W^4 + (h^2 - 2 m - 2 F U/a^2) W^2 + m^2
+    - F^2/a^2 = 0 with m = wl^2 + g a^2. At the maximum both roots W^2 are equal.
     """
     damping, stiffness = oscillator.damping**2, oscillator.linear_frequency**2
     force, unbalance, hardening = oscillator.force, oscillator.unbalance, oscillator.hardening
@@ -118,7 +118,7 @@ def free_folds(oscillator) -> tuple[Point, ...]:
     """Return the folds of the free response curve, by ascending amplitude.
 
     P is the left side of the equation in `maximum_response`, and u = a^2. At a fold P = 0 and, for
-    constant W, dP/du = 0. Both equations are quadratic in W^2; the resultant has degree five in u.
+    constant W, dP/du = 0. Eliminating W^2 from both equations leaves a polynomial in u.
     """
     damping, stiffness = oscillator.damping**2, oscillator.linear_frequency**2
     force, unbalance, g = oscillator.force, oscillator.unbalance, oscillator.hardening
@@ -144,7 +144,7 @@ def free_folds(oscillator) -> tuple[Point, ...]:
 
 
 def _by_unbalance(oscillator):
-    """Return the terms of the resultant in `free_folds` that contain U, divided by U."""
+    """Return the terms with U in the polynomial of `free_folds`, divided by U."""
     damping, stiffness = oscillator.damping**2, oscillator.linear_frequency**2
     force, unbalance, g = oscillator.force, oscillator.unbalance, oscillator.hardening
     u = Polynomial([0, 1])

@@ -1,6 +1,6 @@
 """Single-term harmonic balance of an elastic impact damper over frequency and over clearance.
 
-Equations of the paper: (7) is the balance with elastic contacts, (14) the limit for rigid walls.
+Equation (7) of the paper is the balance with elastic contacts, (14) the limit for rigid walls.
 """
 
 from dataclasses import replace
@@ -24,15 +24,15 @@ from impact_damper.theory.single_harmonic import (
     stability,
 )
 
-# Largest distance between neighbours on a branch, divided by the largest component of a solution.
+# Neighbours on a branch differ by less than JUMP times the largest component of all solutions.
 JUMP = 0.25
 
 
 def branches_over(rows) -> list[np.ndarray]:
-    """Return the branch numbers of solutions, an array for each row of solutions.
+    """Return the index of the branch of each solution, as an array for each row of solutions.
 
-    A row holds the solutions at one value of a parameter. Solutions x and y of consecutive rows are
-    on one branch if y is the nearest to x, x is the nearest to y, and x - y is small (see JUMP).
+    A row holds the solutions at one value of a parameter. Two solutions of consecutive rows are on
+    one branch if each is the nearest to the other, and their distance is small (see JUMP).
     """
     sizes = [np.max(np.abs(row)) for row in rows if len(row)]
     reach = JUMP * max(sizes, default=1.0)
@@ -71,14 +71,14 @@ def harmonic_balance(system, damper, frequencies):
     xarray.Dataset
         Variables over (frequency, free_solution) describe motions without the damper. With a
         damper, variables over (frequency, solution) describe solutions of (7) and motions in which
-        the loose mass rests. Variables over (frequency, root) describe roots of (14). An index of
-        `free_solution`, `solution` or `root` is a branch from fold to fold. Where a branch does
-        not exist, entries are NaN or flagged absent.
+        the loose mass rests. Variables over (frequency, root) describe roots of (14). Each index
+        along `free_solution`, `solution` or `root` stands for a branch from one fold to the next.
+        Where a branch does not exist, entries are NaN or flagged absent.
 
         The suppression band is the range of frequencies around the peak Wp of the free response in
         which (7) has exactly one stable solution, and this solution is smaller than the free
-        resonance branch. Beyond the fold of the free resonance branch there is no band. Variables
-        of the band: frequency of each `edge` (NaN if not found), width, amplitude reduction at Wp.
+        resonance branch. Beyond the fold of the free resonance branch there is no band. The
+        variables of the band are its edges (NaN if not found), its width, and amplitudes at Wp.
 
     Raises
     ------
@@ -108,7 +108,7 @@ def harmonic_balance(system, damper, frequencies):
 
 
 def _table(columns, rows, fill=np.nan):
-    """Return rows of unequal length as one array; `columns` has the column of each value."""
+    """Return rows of unequal length as one array. `columns` gives the column for each value."""
     width = max((1 + row.max() for row in columns if len(row)), default=1)
     table = np.full((len(rows), width), fill)
     for target, place, row in zip(table, columns, rows, strict=True):
@@ -191,7 +191,7 @@ SIZES = ("band_width", "peak_frequency", "peak_amplitude", "quiet_amplitude", "r
 
 
 def _band(oscillator, damper):
-    """Return the variables of the suppression band. A break shorter than a step may be missed."""
+    """Return the variables of the suppression band. Interruptions below a step may be missed."""
     data = dict.fromkeys(SIZES, np.nan) | {
         "band_status": flag("band_status", "no_peak"),
         "edge_frequency": [np.nan] * 2,
@@ -222,7 +222,7 @@ def _band(oscillator, damper):
 
 
 def _look(oscillator, damper, frequency):
-    """Return the `band_status` at one frequency, and the ascending |a| of all stable solutions."""
+    """Return `band_status` as a word at one frequency, and |a| of all stable solutions, sorted."""
     stable = np.sort(np.abs(_stable_amplitudes(oscillator, damper, frequency)))
     free = resonance(oscillator, frequency)
     if len(stable) != 1:
@@ -232,7 +232,7 @@ def _look(oscillator, damper, frequency):
 
 
 def _edge(inside, peak, limit):
-    """Return the edge of the band from W = peak to W = limit * peak, or NaN if not found."""
+    """Search from W = peak to W = limit * peak. Return the edge of the band, or NaN."""
     step = np.sign(limit - 1) * SEARCH_STEP * peak
     inner = peak
     for outer in np.arange(peak + step, limit * peak, step):
@@ -254,12 +254,12 @@ def _stable_amplitudes(oscillator, damper, frequency):
     return solutions.amplitude[stability(growth) == flag("stability", "stable")]
 
 
-# Largest |a| that is treated as a = 0, divided by the clearance.
+# An amplitude counts as 0 if |a| is below ZERO_AMPLITUDE times the clearance.
 ZERO_AMPLITUDE = 1e-6
 
 
 def _smallest(oscillator, damper, frequency):
-    """Return the stable amplitude a of (7) with the least |a|, or NaN, and `analytical_status`."""
+    """Return the stable amplitude of (7) closest to 0 (or NaN), and the status as a word."""
     if damper.restitution != 1:
         return np.nan, "inelastic"
     if beyond_closed_forms(oscillator, damper):
@@ -272,7 +272,7 @@ def _smallest(oscillator, damper, frequency):
 
 
 def analytical_table(oscillator, dampers, frequency):
-    """Return |a| by (7) for dampers of ascending clearance, and the clearance at which a = 0."""
+    """Return the smallest stable |a| by (7) over the clearance, and the clearance with a = 0."""
     found = [_smallest(oscillator, each, frequency) for each in dampers]
     signed, status = np.array([size for size, _ in found]), [name for _, name in found]
     best = np.nan

@@ -1,6 +1,6 @@
-"""All real roots of a smooth function of one variable, from the signs at its extrema.
+"""All real roots of a smooth function. Its signs at neighbouring extrema show the roots between.
 
-An extremum at which the function is 0 within rounding errors is a double root.
+An extremum at which the function is 0, within rounding errors, is a double root.
 """
 
 import numpy as np
@@ -9,10 +9,10 @@ from numpy.polynomial.polynomial import polyder, polyroots, polyval
 from scipy.optimize import brentq
 
 EPSILON = np.finfo(float).eps
-# A value of a function is treated as 0 up to ROUNDING times the sum of the moduli of its terms.
+# A function counts as 0 if it is at most ROUNDING times the sum of its terms' absolute values.
 ROUNDING = 16 * EPSILON
 LARGEST_DEGREE = 512
-# An interval is halved if the sum of moduli varies in it by more than the factor LARGEST_RANGE.
+# An interval is halved if this sum varies within it by more than the factor LARGEST_RANGE.
 LARGEST_RANGE = 1e6
 
 
@@ -34,7 +34,7 @@ def polynomial_roots(coefficients) -> np.ndarray:
 def smooth_roots(function, size, lower, upper) -> np.ndarray:
     """Return the real roots of an analytic function in [lower, upper], each listed once.
 
-    EPSILON size(x) is a bound on the rounding error at x. A Chebyshev interpolant gives the extrema
+    The rounding error at x is at most EPSILON * size(x). Extrema come from a Chebyshev polynomial
     (Trefethen, Approximation Theory and Approximation Practice, 2013, chapter 18).
     """
     sizes = size(np.linspace(lower, upper, 17))
@@ -55,7 +55,7 @@ def smooth_roots(function, size, lower, upper) -> np.ndarray:
 
 
 def _between(function, size, extrema, lower, upper):
-    """Return the roots of `function` in [lower, upper]; `extrema` has all zeros of the slope."""
+    """Return the roots of `function` in [lower, upper], given all its extrema."""
     points = np.unique(np.clip(np.concatenate([[lower, upper], np.real(extrema)]), lower, upper))
     values = function(points)
     if not np.isfinite(values).all():

@@ -1,9 +1,9 @@
-"""Single-term harmonic balance with the damper: (6), (7), (13), (14), and stability by (17).
+"""Single-term harmonic balance with the damper: the paper's equations (6), (7), (13), (14), (17).
 
 Z1 = a cos(W T + t1) and Z2 = b cos(W T + t1) with b > 0; a < 0 means antiphase. Walls are elastic.
-The slow flow (17) is written here in A = a exp(i t1) and C = b exp(i t2) with the phase t2 of Z2.
-At a = 0 (the design point) this form is regular, but the paper's form in a, b, t1 and t2 is
-singular. Elsewhere both forms have the same eigenvalues.
+Stability follows from the slow flow (17), the equations for slowly varying amplitudes and phases.
+It is written here in A = a exp(i t1) and C = b exp(i t2), where t2 is the phase of Z2. The paper's
+form in a, b, t1 and t2 is singular at a = 0. Elsewhere both forms have the same eigenvalues.
 """
 
 from typing import NamedTuple
@@ -38,7 +38,7 @@ def contact_amplitude(relative_amplitude, clearance) -> tuple:
 
 
 def rigid_solutions(oscillator, damper, frequency) -> Solutions:
-    """Return the solutions of (13), where b = d0, in the order of ascending real roots of (14).
+    """Return the solutions of (13), which have b = d0. They are sorted by the roots of (14).
 
     Solutions with a > d0 need walls that pull; (7) has no such solution. For a forcing amplitude f
     other than 1, the equations hold with d0/f, k3 f^2 and a/f in place of d0, k3 and a.
@@ -82,7 +82,7 @@ def impacting_solutions(oscillator, damper, frequency) -> Solutions:
 
 
 def resting_solutions(oscillator, damper, frequency) -> Solutions:
-    """Return the free solutions with a < d0. Then the loose mass can be at rest, and Z2 = Z1."""
+    """Return the free solutions with a < d0, in which the loose mass can rest, so that Z2 = Z1."""
     check_closed_form(oscillator, damper)
     free = free_solutions(oscillator, frequency)
     inside = free.amplitude < damper.clearance
@@ -90,7 +90,7 @@ def resting_solutions(oscillator, damper, frequency) -> Solutions:
 
 
 class _Balance:
-    """Terms of (7) with (6e) over the contact angle p, times powers of cos(p) that remove poles."""
+    """Terms of (7) as functions of the contact angle p. Factors of cos(p) remove their poles."""
 
     def __init__(self, oscillator, damper, frequency):
         self.clearance = damper.clearance
@@ -120,7 +120,7 @@ class _Balance:
         return inline**2 + quadrature**2 - self.force**2 * cosine**6
 
     def defect_size(self, angle):
-        """Return a bound on the rounding error of `defect`, divided by the machine epsilon."""
+        """Return a bound on the rounding error of `defect`, in units of the machine epsilon."""
         cosine, scaled, inline, quadrature = self.terms(angle)
         square = cosine**2
         error = 2 * self.clearance - scaled
@@ -135,9 +135,9 @@ class _Balance:
         )
 
     def angle_range(self):
-        """Return bounds on the contact angle p of all solutions; equal bounds mean no solution.
+        """Return the range of p that contains all solutions. If it is empty, its ends are equal.
 
-        By (7b), |a| <= f/(h W). By (7a), |g a^3| is at most the sum of the moduli of other terms.
+        (7b) gives |a| <= f/(h W). (7a) bounds |g a^3| by the absolute values of its other terms.
         """
         reach = self.force / self.drag
         if reach == 0:
@@ -153,9 +153,8 @@ class _Balance:
     def _angles_within(self, reach):
         """Return the range of p that contains every solution with |a| <= reach.
 
-        The upper end is a bound by (7a) or, if smaller, the angle with a(p) = -reach. The lower end
-        is 0 if d0 <= reach. Otherwise the lower end is the angle with a(p) = reach, or the upper
-        end if there is no such angle.
+        The range begins at p = 0 if d0 <= reach, and otherwise where a(p) = reach. It ends where
+        a(p) = -reach, or before, at a bound from (7a).
         """
         reach *= 1 + 1e-6
         spring = reach * (abs(self.detuning) + abs(self.hardening) * reach**2)
@@ -173,7 +172,7 @@ class _Balance:
 
 
 def _excess(angle):
-    """Return p - sin(p) cos(p) for 0 <= p <= pi/2 without cancellation.
+    """Return p - sin(p) cos(p) for 0 <= p <= pi/2, without loss of digits at small p.
 
     With e(x) = x - sin(x), the result is e(2p)/2. A Taylor series gives e(2p/9). The formula
     e(3y) = 3 e(y) + 4 sin^3(y), used twice, then gives e(2p/3) and e(2p).
@@ -196,7 +195,7 @@ def check_elastic(oscillator, damper):
         )
 
 
-# A motion is marginally stable if the modulus of its growth rate is at most MARGIN.
+# A motion counts as marginally stable if its growth rate is from -MARGIN to MARGIN.
 MARGIN = 1e-9
 
 
@@ -222,13 +221,13 @@ def jacobian(state, oscillator, damper, frequency) -> np.ndarray:
 
 
 def growth_rate(state, oscillator, damper, frequency) -> np.ndarray:
-    """Return the largest real part of the eigenvalues of `jacobian` at each state, shape (...)."""
+    """Return the largest real part of an eigenvalue of `jacobian` at each state, shape (...)."""
     matrices = jacobian(state, oscillator, damper, frequency)
     return np.max(np.real(np.linalg.eigvals(matrices)), axis=-1)
 
 
 def fixed_points(solutions) -> np.ndarray:
-    """Return solutions of the balance in the form of `state` in `jacobian`, shape (..., k)."""
+    """Convert solutions of the balance to the argument `state` of `jacobian`, shape (..., k)."""
     *sizes, phase = solutions
     return np.stack([size * np.exp(1j * phase) for size in sizes], axis=-1).view(float)
 
@@ -239,7 +238,7 @@ def stability(growth) -> np.ndarray:
 
 
 def _push_slopes(loose, damper):
-    """Return the derivatives of r1 B(b) C/b by C and by conj(C), where b = |C|."""
+    """Return the derivatives of the contact force r1 B(b) C/b by C and by conj(C). b is |C|."""
     size = np.abs(loose)
     contact, slope = contact_amplitude(size, damper.clearance)
     size = np.maximum(size, damper.clearance)
@@ -249,7 +248,7 @@ def _push_slopes(loose, damper):
 
 
 def _block(by_value, by_conjugate):
-    """Return the real 2 x 2 matrices of the maps dz -> by_value dz + by_conjugate conj(dz)."""
+    """Return real 2 x 2 matrices for the linear maps dz -> by_value dz + by_conjugate conj(dz)."""
     total, difference = by_value + by_conjugate, by_value - by_conjugate
     rows = [
         np.stack([total.real, -difference.imag], axis=-1),

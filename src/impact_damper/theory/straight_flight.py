@@ -1,4 +1,4 @@
-"""Closed forms for the optimum clearance, for a loose mass that flies at constant velocity.
+"""Closed forms for the optimum clearance. The loose mass flies at constant velocity.
 
 Lengths are divided by f/W^2 with the forcing amplitude f. Clearances are given as rm W^2 d0/f.
 """
@@ -13,7 +13,7 @@ from impact_damper.model.bounds import check_number
 from impact_damper.model.exit_rules import damping_ratio
 from impact_damper.model.parameters import check_closed_form
 
-# Number of impulses q that are compared before the minimum of max |x| is refined.
+# The search for the smallest max |x| compares this number of impulses q, then refines the best.
 GRID = 65
 NEWTON_STEPS = 3
 # Shift of the two characteristic roots if they are equal, to avoid a division by 0.
@@ -21,12 +21,12 @@ APART = 1e-20j
 
 
 class Flight(NamedTuple):
-    """The quiet (small) motion near the optimum clearance, over the phase phi of the forcing.
+    """The quiet (small) motion near the optimum clearance.
 
-    x = W^2 Z1/f responds to the forcing and to impulses 4 q/pi (see the derivation in
-    docs/explanation/straight_flight.md). Without impulses -x has its maximum at phi = 0. An impact
-    takes place at phi = s, the lag. `contact` is W t/pi with the duration t of an elastic contact.
-    `damping` is h/W. `stiffness` is wl/W, below 1.
+    x = W^2 Z1/f is driven by the forcing and by impacts with the impulse 4 q/pi (derivation in
+    docs/explanation/straight_flight.md). Phases phi count from the minimum that x would have
+    without impacts. An impact takes place at phi = s, the lag. An elastic contact lasts the time t,
+    and `contact` is W t/pi. `damping` is h/W. `stiffness` is wl/W, below 1.
     """
 
     mass_ratio: float
@@ -37,7 +37,7 @@ class Flight(NamedTuple):
 
     @property
     def forced(self):
-        """Amplitude A of the response x to the forcing alone."""
+        """Amplitude A that x would have without impacts."""
         return 1 / np.hypot(1 - self.stiffness**2, self.damping)
 
     @property
@@ -47,30 +47,30 @@ class Flight(NamedTuple):
 
     @property
     def loss(self):
-        """L/A in the equation sin(s) = q L/A for the lag s of an impact at rigid walls."""
+        """sin(s)/q for the lag s and the impulse q of an impact at rigid walls."""
         impact = (1 + 1 / self.mass_ratio) * (1 - self.restitution) / (1 + self.restitution)
         damping = self._difference(lambda root: root * np.tanh(np.pi * root / 2))
         return 2 / np.pi * (impact - damping) / self.forced
 
     @property
     def contact_phase(self):
-        """Duration theta of a contact, as a phase."""
+        """Duration of a contact, as a phase."""
         return np.pi * self.contact / np.sqrt(1 - damping_ratio(self.restitution) ** 2)
 
     @property
     def reach(self):
-        """Depth in a wall where the flights before and after a contact meet, over (1 + 1/rm) q."""
+        """Because contacts take time, the clearance rm W^2 d0/f is less by reach (1 + rm) q."""
         return 4 / np.pi * self.contact_phase * self.restitution / (1 + self.restitution) ** 2
 
     @property
     def setback(self):
-        """Amount by which a contact of finite duration reduces the lag s."""
+        """Because contacts take time, the lag s is less by this amount."""
         asymmetry = (1 - self.restitution) / (1 + self.restitution)
         return self.contact_phase * asymmetry - 2 * damping_ratio(self.restitution) * self.contact
 
     @property
     def largest_impulse(self):
-        """Largest impulse q for which a lag s and a turning point of x between impacts exist."""
+        """Largest impulse q for which the formulas of this class hold."""
         bound = np.pi / 2 * self.forced
         return min(bound, 1 / self.loss) if self.loss > 0 else bound
 
@@ -79,7 +79,7 @@ class Flight(NamedTuple):
         return np.arcsin(np.minimum(self.loss * impulse, 1.0)) - self.setback
 
     def _difference(self, function):
-        """Return (f(r) - f(s))/(r - s) at both roots r, s of x^2 + damping x + stiffness^2 = 0."""
+        """Return (f(r) - f(u))/(r - u) at both roots r, u of z^2 + damping z + stiffness^2 = 0."""
         half = np.sqrt(complex(self.damping**2 / 4 - self.stiffness**2)) or APART
         roots = -self.damping / 2 + half, -self.damping / 2 - half
         return ((function(roots[0]) - function(roots[1])) / (2 * half)).real
@@ -100,7 +100,7 @@ class Flight(NamedTuple):
         return tuple(impulse * push - self.forced * each for push, each in pairs)
 
     def ratio(self, impulse):
-        """Return rm W^2 d0/f for an impulse q."""
+        """Return the clearance, as rm W^2 d0/f, at which impacts have the impulse q."""
         tip = self.motion(self.lag(impulse), impulse)[0]
         return impulse + self.mass_ratio * tip - (1 + self.mass_ratio) * self.reach * impulse
 
@@ -118,7 +118,7 @@ class Flight(NamedTuple):
 
 
 def flight_of(oscillator, damper, frequency) -> Flight:
-    """Return the `Flight` for a damper; the clearance of the damper is not used."""
+    """Return the `Flight` for a damper. The clearance of the damper is not used."""
     check_closed_form(oscillator, damper)
     if oscillator.forcing_amplitude(1.0) == 0:
         raise ValueError(f"{oscillator.told('force', 'unbalance')}: a quiet motion needs a forcing")
@@ -139,7 +139,7 @@ def flight_of(oscillator, damper, frequency) -> Flight:
 
 @cache
 def least_displacement_ratio(flight) -> float:
-    """Return the value of rm W^2 d0/f at which max |Z1| is smallest."""
+    """Return the best clearance, as rm W^2 d0/f: max |Z1| is smallest there."""
     impulses = np.linspace(0, flight.largest_impulse, GRID + 2)[1:-1]
     best = int(np.argmin(flight.largest_displacement(impulses)))
     bounds = impulses[max(best - 1, 0)], impulses[min(best + 1, GRID - 1)]
