@@ -28,7 +28,7 @@ def of_run(p, run, begin, periods, batch):
 
 
 def exponents(p, start, tolerance, periods, batch, restitution=None):
-    """Return the largest Lyapunov exponent in each batch; if `restitution`, with rigid walls."""
+    """Return the largest Lyapunov exponent in each batch. With `restitution`, walls are rigid."""
     y, tangent, work = start.copy(), np.full((1, 4), 0.5), workspace()
     side, begin, period = side_of(p, y), strobe_time(p), 2 * math.pi / p[FREQUENCY]
     rows = np.empty(periods)

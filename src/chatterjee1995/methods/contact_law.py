@@ -14,7 +14,7 @@ from impact_damper.model.exit_rules import damping_ratio
 
 
 class Exit(NamedTuple):
-    """End of a contact. `duration` is in units of s, `departure` is the speed at u = 0 by v0."""
+    """How a contact ends: outcome, scaled duration s, departure speed at u = 0 divided by v0."""
 
     outcome: str
     duration: float
@@ -62,7 +62,7 @@ def _waves(restitution, load):
 
 
 def contact(restitution, load, rule) -> Exit:
-    """Return how a contact ends by a rule in `exit_rules.EXIT_RULES`."""
+    """Return how a contact ends under one of the rules `exit_rules.EXIT_RULES`."""
     penetration, force = _waves(restitution, load)
     end = (penetration if rule == "zero_penetration" else force).first_fall()
     if end == math.inf:

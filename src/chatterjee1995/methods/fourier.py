@@ -42,7 +42,7 @@ def largest(coefficients, harmonics) -> float:
 
 
 def intervals(coefficients, harmonics, level) -> np.ndarray:
-    """Return a row (wall, begin, end) for each interval with z > level or z < -level (wall -1).
+    """Return a row (wall, begin, end) per interval: z > level (wall 1), z < -level (wall -1).
 
     The search divides a period into cells. It halves a cell until a bound on z'' proves that z
     crosses the level at most once in it. No interval wider than SHORTEST is missed.

@@ -30,7 +30,7 @@ def follow_line(
 
 
 class Grid:
-    """Orbits in the cells of the grid `points`, followed to neighbours along each of `axes`."""
+    """Orbits in the cells of the grid `points`, each followed from a neighbour along `axes`."""
 
     def __init__(self, points, correct, *, shortest=SHORTEST, axes=None, extrapolating=False):
         self.points, self.correct = points, correct

@@ -70,7 +70,7 @@ class Balance:
         return fourier.intervals(coefficients[1], self.harmonics, self.damper.clearance)
 
     def residual(self, coefficients, rows) -> np.ndarray:
-        """Return left minus right side of (3), (4), (20), (21) by harmonic; see `contacts`."""
+        """Return left minus right side of (3), (4), (20), (21) by harmonic; `rows`: `contacts`."""
         k, rate, own = self.harmonics, self.rates, self.oscillator
         first = coefficients[0]
         count = fourier.product_samples(k, SPRING_POWER)
@@ -126,7 +126,7 @@ class Balance:
 
 
 def _convolution(coefficients, harmonics):
-    """Return matrices A and B. A z + B conj(z) is the product of the series z and the given one."""
+    """Return matrices A and B for which A z + B conj(z) is z times the series `coefficients`."""
     two_sided = np.concatenate([coefficients[:0:-1].conj(), coefficients])
     zero = len(coefficients) - 1
     column = harmonics[:, None]
@@ -204,7 +204,7 @@ def single_term(oscillator, damper, frequency) -> np.ndarray:
 
 
 def refine(balances, start) -> list:
-    """Return the `Solution` of each balance, from the last converged one as the first guess."""
+    """Return the `Solution` of each balance. The first guess is the last converged solution."""
     solutions = []
     for balance in balances:
         solutions.append(solve(balance, start))

@@ -1,4 +1,4 @@
-"""Motions by rigid walls, harmonic balance and shooting. `work` is a number of operations."""
+"""Models of motions: rigid walls, harmonic balance, shooting. `work` is a number of operations."""
 
 import math
 from dataclasses import replace

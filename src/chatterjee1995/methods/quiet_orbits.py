@@ -18,7 +18,7 @@ CONTACTS = 2  # number of contacts of a quiet orbit in a cycle
 
 
 class CompliantOrbit(NamedTuple):
-    """A symmetric orbit with 2 contacts a cycle: state at W T = pi/2, multiplier, max |Z1|."""
+    """A symmetric orbit, 2 contacts a cycle: state at W T = pi/2, largest multiplier, max |Z1|."""
 
     parameters: np.ndarray
     state: np.ndarray
@@ -63,7 +63,7 @@ class QuietOrbits(NamedTuple):
 
 
 def straight_flight_end(oscillator, clearance, restitution) -> float:
-    """Return W at which quiet orbits fold by the theory of straight flight; inf without a fold.
+    """Return W at the fold of quiet orbits, by the theory of straight flight; inf without a fold.
 
     At the fold W^2 d0/f = sqrt(1 + k^2), with k = (pi/2) (1 + e)/(1 - e) and f = F + U W^2.
     """
@@ -143,8 +143,8 @@ def _end(followed):
     return fraction, followed.status
 
 
-# The ratio rm W^2 d0/f by rule (18) if d0 in the rule is replaced by the first harmonic of Z2. This
-# is 8 d0/pi^2 if the primary mass rests and the loose mass flies to and fro at constant speed.
+# The ratio rm W^2 d0/f by rule (18) if the first harmonic of Z2 replaces d0. This harmonic is
+# 8 d0/pi^2 if the primary mass rests and the loose mass flies to and fro at constant speed.
 FIRST_HARMONIC_RATIO = np.pi**2 / 8
 # Impulse q of an impact, and phase phi of a turning point, if |Z1| is equally large at both. For
 # e = 1, h = 0 and no spring, q - 1 = cos(phi) - q + 2 q phi/pi and sin(phi) = 2 q/pi.

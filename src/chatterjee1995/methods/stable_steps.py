@@ -78,7 +78,7 @@ def orbits_over_stiffness(oscillator, damper, frequency, stiffnesses) -> list:
 
 
 def _in_steps(own, targets):
-    """Return `own`, the targets, and values between; a value is at most FACTOR times the last."""
+    """Return `own`, the targets, and values between, with ratios of neighbours up to FACTOR."""
     cells = [np.array([own])]
     for before, target in itertools.pairwise([own, *targets]):
         count = max(math.ceil(abs(math.log(target / before)) / math.log(FACTOR)), 1)
@@ -104,7 +104,7 @@ def _slope(stiffnesses, steps):
 
 
 def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, most_steps, periods):
-    """Return a dataset of the largest stable steps. `scaled_steps` holds h omega_c, increasing."""
+    """Return a dataset of stable steps. `scaled_steps` are steps times contact frequency."""
     stiffnesses = read_increasing(UNITLESS, "stiffnesses", stiffnesses, **STIFFNESS_RANGE)
     scaled = read_increasing(UNITLESS, "scaled_steps", scaled_steps, above=0)
     scaled = scaled[::-1]

@@ -82,7 +82,7 @@ def contact_model(
 
 
 def spread_loads(largest, count):
-    """Return loads from -largest to largest, spaced evenly to |G| = LINEAR, else by logarithms."""
+    """Return loads from -largest to largest: evenly spaced to |G| = LINEAR, then on a log scale."""
     return LINEAR * np.sinh(np.linspace(-1, 1, count) * np.arcsinh(largest / LINEAR))
 
 

@@ -72,7 +72,7 @@ def asymptotic_harmonic(damper, frequency) -> float:
 
 
 def decay(damper, p, state) -> tuple:
-    """Return how MEASURES should decrease: the kind, and powers of 1/N or rates per harmonic."""
+    """Return how the errors should decrease: the kind, and powers of 1/N or rates per harmonic."""
     if damper is None:
         return "exponential", np.array(ANALYTIC) * p[FREQUENCY] * singularity_distance(p, state)
     return "algebraic", np.array(ELASTIC if damper.restitution == 1 else INELASTIC)
