@@ -1,7 +1,7 @@
 """Archive of a run: `python workflow/archive.py write FILE`, and `check FILE`.
 
-The archive is a zip of the results and of their sources. Its RO-Crate names for each file the
-digest and the job that made the file. The check compares digests and runs a job again.
+The archive is a zip file with the results, and with all files needed to compute them again. Its
+metadata (an RO-Crate) list digests and jobs. The check compares digests and runs a job again.
 """
 
 import argparse
@@ -16,7 +16,7 @@ from urllib.parse import unquote
 
 from crate import METADATA, crate, encoded, sha256
 
-# What a rerun needs beside the results: files, and folders with all their files.
+# Files and folders that a rerun needs beside the results.
 PROJECT = "CITATION.cff CONTRIBUTING.md LICENSE Makefile README.md Snakefile codemeta.json".split()
 PROJECT += "config profiles pyproject.toml requirements.lock src workflow".split()
 LEFT_OUT = "__pycache__", ".egg-info", ".part-"
@@ -62,7 +62,7 @@ def check(archive, job):
 
 
 def names(linked):
-    """Return the names of the entities in a link or in a list of links."""
+    """Return the names that a link of the RO-Crate, or a list of links, refers to."""
     return [unquote(each["@id"]) for each in (linked if isinstance(linked, list) else [linked])]
 
 

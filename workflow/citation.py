@@ -1,7 +1,7 @@
-"""Write files for citing and the environment of jobs from pyproject.toml: `make citation`.
+"""Make files from pyproject.toml (`make citation`): for citing, and the environment of jobs.
 
 The table [tool.citation] of pyproject.toml holds what [project] has no key for, such as a DOI and
-a date of release, once these exist. Addresses stand in [project.urls]. Snakemake makes the
+a date of release. Addresses stand in [project.urls]. Snakemake makes the
 environment of the jobs from workflow/envs/impact-damper.yaml, if it is told to use conda.
 """
 
@@ -85,7 +85,7 @@ def article(reference):
 
 
 def environment(project):
-    """Return the text of the environment of the jobs. Snakemake itself is no part of it."""
+    """Return the text of a conda environment for the jobs. It does not include Snakemake."""
     packages = [*project["dependencies"], *project["optional-dependencies"]["workflow"]]
     lines = sorted(each.lower().replace(">=", " >=") for each in packages)
     lines = [each for each in lines if not each.startswith("snakemake ")]
@@ -99,7 +99,7 @@ def environment(project):
 
 
 def files(pyproject):
-    """Return a dict: name of a file -> text of the file, from the text of a pyproject.toml."""
+    """Return a dict: name of a file -> text of the file. `pyproject` is a text."""
     table = tomllib.loads(pyproject)
     project, cited = table["project"], table["tool"]["citation"]
     plain = {"sort_keys": False, "allow_unicode": True, "width": 100}

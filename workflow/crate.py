@@ -1,8 +1,8 @@
-"""Contents of an RO-Crate that describes a run: the Provenance Run Crate, version 0.5.
+"""Metadata of an archived run: an RO-Crate by the profile Provenance Run Crate, version 0.5.
 
 https://www.researchobject.org/workflow-run-crate/profiles/provenance_run_crate lists the contents:
 files, rules as steps of the workflow, and each job with its function, parameters, inputs,
-outputs and times. The sources are Snakemake's records in `.snakemake/metadata`, and the timings.
+outputs and times. The data come from Snakemake's folder `.snakemake/metadata` and from the folder `timings`.
 """
 
 import ast
@@ -34,7 +34,7 @@ UNITS = {"seconds": "SEC", "cpu_seconds": "SEC", "peak_memory_mb": "MegaBYTE"}
 
 
 def entity(name, kind, /, **properties):
-    """Return an entity without properties None and []. A list of one value becomes the value."""
+    """Return an entity of the crate. Properties None and [] are left out, and [x] becomes x."""
     given = {key: value for key, value in properties.items() if value not in (None, [])}
     for key, value in given.items():
         if isinstance(value, list) and len(value) == 1:
@@ -58,15 +58,15 @@ def sha256(path):
 
 
 def stamp(seconds):
-    """Return a time of Snakemake as text."""
+    """Return a time, in seconds since 1970, as text."""
     return datetime.fromtimestamp(seconds, UTC).isoformat(timespec="milliseconds")
 
 
 def jobs_of(root, files):
-    """Return a dict: name of a job's log -> Snakemake's record with all outputs and parameters."""
+    """Return Snakemake's record of each job, with outputs and parameters, keyed by log file."""
     folder, jobs = root / ".snakemake/metadata", {}
     for path in sorted(each for each in folder.rglob("*") if each.is_file()):
-        # Snakemake names a record by its output in base64; long names are split into @-folders.
+        # The path of a record is the name of an output in base64, split into folders if it is long.
         name = path.relative_to(folder).as_posix().replace("/", "").replace("@", "")
         output = base64.urlsafe_b64decode(name + "=" * (-len(name) % 4)).decode()
         record = json.loads(path.read_text())
@@ -83,7 +83,7 @@ def jobs_of(root, files):
 
 
 def files_of(root, paths, jobs):
-    """Yield the entity of each file. The entity of a figure or table has the caption."""
+    """Yield the entity of each file. Figures and tables have their caption as description."""
     rules = {output: job["rule"] for job in jobs.values() for output in job["output"]}
     for path in paths:
         caption = (root / path).with_suffix(".rst")
@@ -121,7 +121,7 @@ def usage(root, name, job):
 
 
 def actions(root, jobs):
-    """Yield the entities of each job: parameters, time and memory, its action and its start."""
+    """Yield the entities of each job: parameters, time and memory, the run and its start."""
     for name, job in jobs.items():
         given = [
             entity(
@@ -182,7 +182,7 @@ def rules_of(jobs, version):
 
 
 def workflow_of(project, rules, digest, version):
-    """Yield the entities of the workflow, of its language, and of the profiles of the crate."""
+    """Yield entities on the workflow, its language, its license and the profiles of the crate."""
     terms = f"https://spdx.org/licenses/{project['license']}"
     snakemake = {"name": "Snakemake", "url": {"@id": "https://snakemake.readthedocs.io"}}
     yield entity(
@@ -207,7 +207,7 @@ def workflow_of(project, rules, digest, version):
 
 
 def run_of(project, paths, jobs):
-    """Yield the entities of the crate, of the run of the workflow, and of Snakemake's run."""
+    """Yield entities on the crate itself, the run of the workflow, and the run of Snakemake."""
     outputs = {output for job in jobs.values() for output in job["output"]}
     begin = stamp(min(job["starttime"] for job in jobs.values()))
     end = stamp(max(job["endtime"] for job in jobs.values()))
@@ -250,7 +250,7 @@ def run_of(project, paths, jobs):
 
 
 def crate(root, results, paths):
-    """Return the metadata of the crate of files `paths`, and the number of jobs that made files."""
+    """Return the metadata of a crate with the files `paths`, and how many jobs made files."""
     jobs = jobs_of(root, set(paths))
     read, made = (
         {path for job in jobs.values() for path in job[key]} for key in ("input", "output")

@@ -1,4 +1,4 @@
-"""Compile the kernels, the functions that numba compiles, and store them for all other jobs."""
+"""Compile the kernels (numba functions) and store them for all other jobs."""
 
 from pathlib import Path
 

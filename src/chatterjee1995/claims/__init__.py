@@ -1,1 +1,1 @@
-"""Claims of the paper, numbers that decide the claims, and verdicts on the claims."""
+"""The claims of the paper, the evidence on each claim (numbers), and the verdicts."""

@@ -1,4 +1,4 @@
-"""Evidence (numbers) for claims 1 to 3, from harmonic balance and from exact orbits."""
+"""Evidence (numbers) on claims 1 to 3, from harmonic balance and from exact orbits."""
 
 import numpy as np
 import pandas as pd
@@ -14,7 +14,7 @@ ALL_DESIGNS = (*reading.CAPTIONS, *reading.RULES)  # names of all designs of fig
 
 
 def small_motion(datasets):
-    """Return the numbers of claim 1: near rm W^2 d0 = 1 a small stable motion exists."""
+    """Return the evidence on claim 1: near rm W^2 d0 = 1 a small stable motion exists."""
     designs = reading.select(datasets, "harmonic_balance", reading.RULES)
     vanishing = []
     for design in designs:
@@ -41,7 +41,7 @@ def small_motion(datasets):
 
 
 def rigid_against_elastic(datasets):
-    """Return the numbers of claim 2: large amplitudes by (14) equal large amplitudes by (7)."""
+    """Return the evidence on claim 2: (14) and (7) predict the same large amplitudes."""
     designs = reading.damped(datasets, "harmonic_balance").values()
     if not designs:
         raise Missing("There is no dataset of the stage harmonic_balance with a damper")
@@ -66,7 +66,7 @@ def rigid_against_elastic(datasets):
 
 
 def quiet_and_high(datasets):
-    """Return the numbers of claim 3: quiet motions around Wp, violent motions below the band."""
+    """Return the evidence on claim 3: quiet motions around Wp, violent motions below the band."""
     around, beside, found = [], [], []
     for design in reading.select(datasets, "harmonic_balance", ALL_DESIGNS):
         peak = float(design.peak_frequency)
@@ -87,7 +87,7 @@ def quiet_and_high(datasets):
 
 
 def _elastic_orbits(datasets):
-    """Return the numbers of claim 3 for the curves `ELASTIC`, from exact orbits and simulations."""
+    """Return the part of the evidence on claim 3 that comes from the curves `ELASTIC`."""
     around, beside, pairs, single = [], [], [], []
     for name in reading.ELASTIC:
         branches, free = orbits.of_curve(datasets, name)
@@ -111,13 +111,13 @@ def _elastic_orbits(datasets):
 
 
 def design_multipliers(datasets):
-    """Return for each design of figure 3 the largest |multiplier| of its quiet orbit at Wp."""
+    """Return the largest |multiplier| of the quiet orbit at Wp, for each design of figure 3."""
     followed = reading.select(datasets, "design_orbit", ALL_DESIGNS)
     return np.array([reading.largest_multiplier(reading.design_point(each)) for each in followed])
 
 
 def _design_orbits(datasets):
-    """Return the numbers of claim 3 for figure 3, from exact orbits and random starts at Wp."""
+    """Return the part of the evidence on claim 3 that comes from the designs of figure 3."""
     multipliers = design_multipliers(datasets)
     followed = reading.select(datasets, "design_orbit", ALL_DESIGNS)
     unstable = [each for each, size in zip(followed, multipliers, strict=True) if not size < 1]

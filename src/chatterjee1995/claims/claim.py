@@ -18,12 +18,12 @@ NOT_DECIDABLE = "not decidable"
 
 
 def part(share, digits=2) -> str:
-    """Return a share as text to which "of the" can be added: "all", "none" or a percentage."""
+    """Return a share in words that "of the" can follow: "all", "none" or a percentage."""
     return {1.0: "all", 0.0: "none"}.get(float(share)) or percent(share, digits)
 
 
 def rounding(distance) -> str:
-    """Return "a right rounding" or "not a rounding". `distance` is a result of `misrounding`."""
+    """Return whether a printed number is rightly rounded. `misrounding` computes `distance`."""
     return "a right rounding" if distance <= 1 else "not a rounding"
 
 
@@ -39,7 +39,7 @@ SENTENCES.tests["known"] = lambda value: not math.isnan(value)
 
 
 class Bound(NamedTuple):
-    """The range in which a claim requires one of its numbers to lie."""
+    """The range in which a number of a claim's evidence must lie."""
 
     name: str
     least: float
@@ -47,14 +47,14 @@ class Bound(NamedTuple):
 
     @classmethod
     def read(cls, text):
-        """Return the bound of a text such as "size <= 0.05", "1 <= stable" or "0.9 <= x <= 1.1"."""
+        """Read a bound from a text such as "size <= 0.05", "1 <= stable" or "0.9 <= x <= 1.1"."""
         parts = text.split(" <= ")
         (name,) = (each for each in parts if each.isidentifier())
         least, most = parts[: parts.index(name)], parts[parts.index(name) + 1 :]
         return cls(name, *map(float, least or [-math.inf]), *map(float, most or [math.inf]))
 
     def holds(self, values) -> bool | None:
-        """Return whether the number is within the bound; None if the number is NaN."""
+        """Return whether the number lies in the range, or None if the number is NaN."""
         value = values[self.name]
         return None if math.isnan(value) else self.least <= value <= self.most
 
@@ -70,12 +70,12 @@ class Bound(NamedTuple):
 class Claim:
     """A statement of the paper. `number` is "1" to "19", or "S1" to "S6" (misprints, omissions).
 
-    `evidence(datasets)` returns the values of the template `finding`, among them a number for each
-    bound, or NaN if the data do not determine the number. `evidence` raises `Missing` if a dataset
-    is missing. The text `finding` must be true for every verdict. `reading` says how we read vague
-    words. `required` and `full_agreement` map each bound to the meaning of its number. A second
-    bound of the same number is mapped to None. `figures` are names, the most important first.
-    `verdicts` maps usual verdicts to other words.
+    `evidence(datasets)` returns named numbers, NaN where the data do not determine a number. It
+    raises `Missing` if a dataset is missing. `finding` is a template, filled in with the numbers,
+    whose text must be true for every verdict. `reading` says how we read vague words. `required`
+    and `full_agreement` are dicts: bound as text -> meaning of the bounded number, or None if an
+    earlier bound gives the meaning. `figures` are names, the most important first. `verdicts` is
+    a dict: usual verdict -> words to print in its place.
     """
 
     number: str
@@ -91,12 +91,12 @@ class Claim:
 
     @property
     def meanings(self) -> dict:
-        """The meaning of each number that has a bound, keyed by the number's name."""
+        """A dict: name of a number that has a bound -> meaning of the number."""
         texts = {**self.required, **self.full_agreement}
         return {Bound.read(bound).name: words for bound, words in texts.items() if words}
 
     def verdict(self, values) -> str:
-        """Return the verdict: "not decidable" if no required bound fails but a number is NaN."""
+        """Return the verdict. NaN makes a claim not decidable, unless a required bound fails."""
         required, wished = (
             [Bound.read(text).holds(values) for text in bounds]
             for bounds in (self.required, self.full_agreement)
@@ -108,7 +108,7 @@ class Claim:
         return DIFFERENT if False in wished else REPRODUCED
 
     def criterion(self) -> str:
-        """Return all bounds as text."""
+        """Return a text that lists all bounds."""
         parts = []
         for lead, texts in (
             ("Required", self.required),
@@ -120,14 +120,14 @@ class Claim:
         return " ".join(parts)
 
     def sentences(self, values) -> str:
-        """Return the finding; if the claim is not decidable, name the unknown numbers."""
+        """Return the finding. If the claim is not decidable, say which numbers are unknown."""
         if self.verdict(values) != NOT_DECIDABLE:
             return " ".join(SENTENCES.from_string(self.finding).render(values).split())
         unknown = [words for name, words in self.meanings.items() if math.isnan(values[name])]
         return f"The data do not determine: {'; '.join(unknown)}."
 
     def judge(self, datasets) -> dict:
-        """Return the row of the claim in the table of claims."""
+        """Return the claim's row in the table of claims."""
         try:
             values = self.evidence(datasets)
             verdict, finding = self.verdict(values), self.sentences(values)

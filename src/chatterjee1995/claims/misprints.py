@@ -1,4 +1,4 @@
-"""Evidence (numbers) for S1 to S6, misprints and omissions of the paper."""
+"""Evidence (numbers) on S1 to S6, the misprints and omissions of the paper."""
 
 import math
 
@@ -17,13 +17,13 @@ SHALLOW = 0.02  # largest ratio of penetration to clearance at which the expansi
 
 
 def misrounding(printed, computed):
-    """Return |printed - computed|, divided by half a unit of the last printed digit."""
+    """Return |printed - computed| in half units of the last digit; above 1 it is misrounded."""
     decimals = len(f"{printed:g}".partition(".")[2])
     return abs(printed - computed) * 2 * 10**decimals
 
 
 def penetration(datasets):
-    """Return the numbers of S1: expansion of the contact force B for a small penetration b - d0."""
+    """Return the evidence on S1: the expansion of the contact force B for small penetration."""
     design = reading.get(datasets, "harmonic_balance", CAPTIONS[0])
     mass_ratio, clearance, stiffness = reading.parameters(
         design, "mass_ratio", "clearance", "contact_stiffness"
@@ -46,7 +46,7 @@ def penetration(datasets):
 
 
 def captions(datasets):
-    """Return the numbers of S2: clearances in the captions of figure 3, compared with (19)."""
+    """Return the evidence on S2: clearances in the captions of figure 3, and by rule (19)."""
     numbers = {}
     for panel, *names in zip("ba", CAPTIONS[1:], RULES[1:], strict=True):
         designs = reading.select(datasets, "harmonic_balance", names)
@@ -57,13 +57,13 @@ def captions(datasets):
 
 
 def state_size(datasets):
-    """Return the number of S3: how many components the initial state of figure 4 has."""
+    """Return the evidence on S3: how many components the initial state of figure 4 has."""
     motion = reading.get(datasets, "motion", "figure_04")
     return {"components": sum(name in motion for name in STATE)}
 
 
 def design_point(datasets):
-    """Return the numbers of S4: d0 of figure 5 (a), compared with rm W^2 d0 = 1 at W = 2."""
+    """Return the evidence on S4: whether d0 of figure 5 (a) fulfils rm W^2 d0 = 1 at W = 2."""
     design = reading.get(datasets, "harmonic_balance", CAPTIONS[0])
     mass_ratio, clearance = reading.parameters(design, "mass_ratio", "clearance")
     inertia = mass_ratio * PRINTED_PEAKS[0.215] ** 2
@@ -76,7 +76,7 @@ def design_point(datasets):
 
 
 def peaks(datasets):
-    """Return the numbers of S5: peak frequencies by harmonic balance and by exact orbits."""
+    """Return the evidence on S5: peak frequencies, printed, by formula and of exact orbits."""
     free = {oscillator_of(each): each for each in reading.free(datasets, "branches").values()}
     found = []
     for damping, printed in PRINTED_PEAKS.items():
@@ -96,7 +96,7 @@ def peaks(datasets):
 
 
 def unprinted(datasets):
-    """Return the numbers of S6: the parameters chosen where the paper prints none."""
+    """Return the evidence on S6: the parameters that we chose because the paper prints none."""
     design = reading.get(datasets, "harmonic_balance", "figure_08")
     mass_ratio, clearance = reading.parameters(design, "mass_ratio", "clearance")
     sweeps = [

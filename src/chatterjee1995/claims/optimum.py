@@ -1,4 +1,4 @@
-"""Evidence (numbers) for claims 9 and 11. The optimum d0 is the d0 with the least max |Z1|."""
+"""Evidence on claims 9 and 11. The optimum is the clearance d0 with the smallest max |Z1|."""
 
 import itertools
 
@@ -14,7 +14,7 @@ AWAY = 0.1  # the rise of max |Z1| is read at (1 - AWAY) and (1 + AWAY) times th
 
 
 def excess(datasets):
-    """Return the numbers of claim 9: the optimum d0 slightly exceeds the optimum d0 by (7)."""
+    """Return the evidence on claim 9: the optimum d0 is slightly above the prediction of (7)."""
     groups = _sweeps(datasets, "damping", restitution=1)
     members = [sweep for group in groups.values() for sweep in group]
     over = [float(sweep.optimum_clearance / sweep.analytical_optimum) - 1 for sweep in members]
@@ -36,7 +36,7 @@ def excess(datasets):
 
 
 def _sweeps(datasets, *keys, **fixed):
-    """Return a dict: values of `keys` -> two or more sweeps with these values and with `fixed`."""
+    """Group sweeps that have the parameters `fixed` by the values of `keys`; drop lone sweeps."""
     groups = {}
     for sweep in datasets.get("optimum", {}).values():
         if all(reading.parameter(sweep, key) == value for key, value in fixed.items()):
@@ -48,19 +48,19 @@ def _sweeps(datasets, *keys, **fixed):
 
 
 def _displaced(sweep):
-    """Return the larger max |Z1| of two motions, with d0 10 % below and 10 % above the optimum."""
+    """Return max |Z1| at a d0 that is 10 % off the optimum, on the side where it is larger."""
     ends = float(sweep.optimum_clearance) * np.array([1 - AWAY, 1 + AWAY])
     size = np.interp(ends, sweep.clearance, sweep.quiet_displacement, left=np.nan, right=np.nan)
     return float(np.max(size))
 
 
 def _rise(sweep):
-    """Return the relative rise of max |Z1| if d0 is 10 % off the optimum."""
+    """Return by which share max |Z1| rises if d0 is 10 % off the optimum."""
     return _displaced(sweep) / float(sweep.optimum_displacement) - 1
 
 
 def restitution(datasets):
-    """Return the numbers of claim 11: lower e widens the band and lowers the optimum d0."""
+    """Return the evidence on claim 11: lower e widens the band and lowers the optimum d0."""
     names = (reading.BY_MASS[1], reading.INELASTIC)
     hard, soft = (suppression_band(datasets, name) for name in names)
     design = reading.get(datasets, "harmonic_balance", reading.BY_MASS[1])
@@ -83,7 +83,7 @@ def restitution(datasets):
 
 
 def _restitution_steps(group):
-    """Return ratios x(e) / x(next larger e). `overall` is x(smallest e) / x(largest e)."""
+    """Return ratios of each sweep to the sweep with the next larger e. `overall` spans all e."""
     group = sorted(group, key=lambda sweep: -reading.parameter(sweep, "restitution"))
     return [
         {

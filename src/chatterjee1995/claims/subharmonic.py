@@ -1,17 +1,17 @@
-"""Evidence (numbers) for claims 10 and 18, on the one-third subharmonic with and without damper."""
+"""Evidence on claims 10 and 18: the one-third subharmonic with and without damper."""
 
 import numpy as np
 
 from chatterjee1995.reading import datasets as reading
 from chatterjee1995.reading import orbits
 
-# Curves. LIGHT: small loose masses. HEAVY: a large loose mass. LOW_DAMPING: low damping h.
+# Names of curves with small loose masses, with a large loose mass, and with low damping h.
 LIGHT, HEAVY, LOW_DAMPING = reading.BY_MASS[:2], reading.BY_MASS[2], "figure_08"
 AS_LARGE = 0.95  # a subharmonic counts as unchanged if max |Z1| / (free max |Z1|) is at least this
 
 
 def _remaining(datasets, name):
-    """Return widths in W of stable subharmonics, and the largest max |Z1| / (free max |Z1|)."""
+    """Return over how much of W a subharmonic is stable, and its size relative to the free one."""
     branches, free = orbits.of_curve(datasets, name)
     part = orbits.stable_subharmonics(branches)
     edges = reading.band_edges(reading.get(datasets, "harmonic_balance", name))
@@ -26,7 +26,7 @@ def _remaining(datasets, name):
 
 
 def reappearance(datasets):
-    """Return the numbers of claim 10: only light dampers remove the subharmonic."""
+    """Return the evidence on claim 10: only light dampers remove the subharmonic."""
     light = [_remaining(datasets, name) for name in LIGHT]
     heavy, low = _remaining(datasets, HEAVY), _remaining(datasets, LOW_DAMPING)
     return {
@@ -41,7 +41,7 @@ def reappearance(datasets):
 
 
 def by_damping(datasets):
-    """Return the numbers of claim 18: a damper reduces the subharmonic more at lower h."""
+    """Return the evidence on claim 18: a damper reduces the subharmonic more at lower h."""
     low, high = (_reduction(datasets, name) for name in (LOW_DAMPING, reading.BY_MASS[0]))
     return {
         "fall": low["fall"] / high["fall"],
@@ -54,11 +54,11 @@ def by_damping(datasets):
 
 
 def _reduction(datasets, name):
-    """Return how much a damper reduces the subharmonic, in the range of W of the free subharmonic.
+    """Return how much a damper reduces the subharmonic, where it exists without the damper.
 
-    `fall` is the mean reduction of max |Z1|. A start that leads to another motion counts with 0.
-    `relative` is `fall` divided by the mean max |Z1| without damper. `unchanged` is the share of
-    the range in which max |Z1| of a stable subharmonic is at least `AS_LARGE` (free max |Z1|).
+    `fall` is the mean reduction of max |Z1|; for starts that lead to another motion, max |Z1|
+    counts as 0. `relative` is `fall` divided by the mean max |Z1| without damper. `unchanged` is
+    the share of the range of W in which a damper hardly reduces a stable subharmonic.
     """
     branches, free = orbits.of_curve(datasets, name)
     ends = orbits.subharmonic_range(free)

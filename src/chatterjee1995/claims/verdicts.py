@@ -50,17 +50,17 @@ _TEXTS = yaml.safe_load(files(__package__).joinpath("claims.yaml").read_text())
 CLAIMS = tuple(
     Claim(str(number), EVIDENCE[str(number)], **entry) for number, entry in _TEXTS["claims"].items()
 )
-# Regular expression of a symbol in plain text -> printed symbol.
+# Regular expression that finds a symbol in plain text -> symbol on the page.
 PRINTED = {"omega_l": "ωl", r"\bpi\b": "π", r"\^2\b": "²", r"\bsqrt\b": "√", ">=": "≥"}
 
 
 def claims(datasets) -> pd.DataFrame:
-    """Return the table of verdicts; a claim whose datasets are missing is not decidable."""
+    """Return the table of verdicts. A claim whose datasets are missing is not decidable."""
     return pd.DataFrame([claim.judge(datasets) for claim in CLAIMS])
 
 
 def document(frame, picture=None, drawn=None) -> str:
-    """Return the Markdown page of the claims. `picture(name)` is the Markdown of a figure."""
+    """Return the Markdown page of the claims. `picture(name)` returns the Markdown of a figure."""
     picture = picture or (lambda name: f"![{name}](../figures/{name}.png)")
     rows = frame.to_dict("records")
     for row in rows:
@@ -84,18 +84,18 @@ def document(frame, picture=None, drawn=None) -> str:
 
 
 def typeset(text) -> str:
-    """Return a text with plain symbols replaced by printed symbols."""
+    """Return a text with its plain symbols replaced as in `PRINTED`."""
     for plain, printed in PRINTED.items():
         text = re.sub(plain, printed, text)
     return text
 
 
 def title(number) -> str:
-    """Return the heading for the number of a claim, misprint or omission."""
+    """Return the heading of the claim, misprint or omission with a number."""
     return f"Misprint or omission {number}" if number.startswith("S") else f"Claim {number}"
 
 
 def _tally(frame) -> str:
-    """Return a text that lists each verdict with its number of claims."""
+    """Return a text that says how many claims have each verdict."""
     counts = frame["verdict"].value_counts()
     return ", ".join(f"{verdict} ({number})" for verdict, number in counts.items())

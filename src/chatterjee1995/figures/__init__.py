@@ -1,1 +1,1 @@
-"""Figures, one function for each kind. A figure only draws: all numbers come from datasets."""
+"""One function for each kind of figure. It only draws: all numbers come from datasets."""

@@ -1,4 +1,4 @@
-"""Error against operations, for each method on each test case (figure kind `accuracy`)."""
+"""Figure kind `accuracy`: errors of methods over floating-point operations, on test cases."""
 
 from itertools import cycle
 
@@ -21,7 +21,7 @@ MODELS = {
 }
 LOCATED = {True: ("^", "-"), False: ("v", ":")}  # method locates contacts -> marker, line
 OTHER_ORDERS = [("<", "--"), (">", "-."), ("d", ":")]  # marker, line of other Taylor series
-# Quantity whose accuracy is required -> variable or statistic of the dataset, label of the axis.
+# Quantity whose error is drawn -> its name in the dataset, label of the axis.
 QUANTITIES = {
     "amplitude": ("amplitude_error", r"Relative error of max $|Z_1|$"),
     "state": ("state_error", "Error of the state at the end"),
@@ -38,7 +38,7 @@ DOUBTFUL = "open: wrong number of contacts, or\nchaos within its standard error"
 
 @style.context()
 def draw_accuracy(*, accuracy):
-    """Draw a panel for each dataset of the stage accuracy, with a marker for each method."""
+    """Draw errors over operations, a panel for each test case, a marker for each method."""
     drawn, panels = style.grid(len(accuracy), 2.4, 1.5)
     for axes, data in zip(panels, accuracy, strict=True):
         _panel(axes, data)
@@ -88,7 +88,7 @@ def _panel(axes, data):
 
 
 def _errors(axes, data, quantity):
-    """Return errors and standard errors of a chaotic case; shade the error of the reference."""
+    """Return errors of a chaotic case and standard errors. Shade the error of the reference."""
     of = data.sel(statistic=quantity)
     truth = float(of["reference_average"])
     doubt = float(of["reference_average_error"]) / truth
@@ -97,7 +97,7 @@ def _errors(axes, data, quantity):
 
 
 def _method(axes, role, work, error, bars, good, bad):
-    """Draw the runs of one method. Runs in `bad` or with an error <= `bars` get open markers."""
+    """Draw the runs of one method. Doubtful runs get open markers."""
     label, color, marker, line = role
     looks, ended = {"color": color, "markersize": 4}, good | bad
     if bars is None:

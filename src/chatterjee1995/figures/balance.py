@@ -1,4 +1,4 @@
-"""Figures of errors of harmonic balance: over the highest harmonic, and maps of two parameters."""
+"""Figures of the errors of harmonic balance, over the number of harmonics and as maps."""
 
 import numpy as np
 from matplotlib.colors import ListedColormap
@@ -17,7 +17,7 @@ PANELS = {
 ROUNDING = 1e-12  # smallest error by which `_guide` places its line; smaller errors are rounding
 FLOOR = 1e-16  # smallest error drawn
 GUIDE = {"color": style.GREY, "linewidth": 0.7, "linestyle": (0, (2, 1.5)), "zorder": 1}
-# Result of a cold start (Newton's method from one harmonic) -> legend text and marker.
+# Result of a cold start (Newton's method from the one-harmonic solution) -> text, marker.
 COLD = {
     "same_motion": ("(d): finds the same motion", {"marker": "o", "markerfacecolor": "none"}),
     "another_motion": ("(d): finds another motion", {"marker": "s", "markersize": 4.4}),
@@ -30,7 +30,7 @@ PARAMETERS = {
     "clearance": "Clearance, $d_0$",
     "restitution": "Coefficient of restitution, $e$",
 }
-# Verdict: answer of harmonic balance, then of exact motions -> legend text, colour, hatching.
+# Verdict, such as "stable_absent": stable by balance, absent in truth -> text, colour, hatching.
 QUIET = {
     "stable_stable": ("rightly called stable", style.PALE_SKY, ""),
     "stable_unstable": ("called stable, orbit is unstable", style.VERMILION, "////"),
@@ -60,7 +60,7 @@ VIOLENT = {
 
 @style.context()
 def draw_harmonic_convergence(*, harmonic_convergence):
-    """Draw errors of max |Z1|, of harmonics and of multipliers, and the results of cold starts."""
+    """Draw errors of max |Z1|, harmonics and multipliers, and the results of cold starts."""
     drawn = style.figure("double", 6.4)
     panels = drawn.subplots(2, 2, sharex=True)
     style.letter_panels(panels.flat)
@@ -75,7 +75,7 @@ def draw_harmonic_convergence(*, harmonic_convergence):
 
 
 def _draw_errors(axes, harmonics, measure):
-    """Draw the errors of one measure, the predicted decrease, and failures at the upper edge."""
+    """Draw one kind of error, its predicted decrease, and failed runs at the upper edge."""
     status = "hill_status" if measure == "multiplier" else "series_status"
     for index, data in enumerate(harmonics):
         at = data.sel(error_measure=measure)
@@ -91,7 +91,7 @@ def _draw_errors(axes, harmonics, measure):
 
 
 def _guide(data, at):
-    """Return the line of predicted decrease, 3 times above the errors to leave them visible."""
+    """Return a line with the predicted slope, 3 times above the errors to leave them visible."""
     highest, error = data["highest_harmonic"].values, at["series_error"].values
     used = (highest >= data["asymptotic_harmonic"].item()) & (error > ROUNDING)
     if not used.any():
@@ -117,7 +117,7 @@ def _draw_cold(axes, harmonics):
 
 
 def _title(data, short=False):
-    """Return the parameters of a motion as text: the damper, or "free" without a damper."""
+    """Return the parameters of a motion as text."""
     parameters = parameters_of(data)
     if not has_damper(data):
         return "free" if short else f"free, {style.parameter_label(parameters, 'frequency')}"
@@ -128,7 +128,7 @@ def _title(data, short=False):
 
 @style.context()
 def draw_balance_map(*, balance_map):
-    """Draw the verdicts on the quiet motion (a) and on the violent motion (b)."""
+    """Draw where harmonic balance is right on the quiet motion (a) and the violent one (b)."""
     (data,) = balance_map
     drawn = style.figure("double", 5.6)
     quiet, violent = drawn.subplots(1, 2, sharex=True, sharey=True)
@@ -160,7 +160,7 @@ def draw_balance_map(*, balance_map):
 
 
 def _draw_classes(axes, data, name, classes):
-    """Draw the cells in the colours and hatchings of their verdicts."""
+    """Draw each cell of the map in the colour and hatching of its verdict."""
     grid = data["frequency_ratio"].values, data["map_value"].values
     values = decode(data[name]).values
     for meaning, (label, color, hatch) in classes.items():
@@ -175,7 +175,7 @@ def _draw_classes(axes, data, name, classes):
 
 
 def _draw_edge(axes, verdict):
-    """Draw the boundary of the cells in which harmonic balance has a stable solution."""
+    """Draw the boundary of the region in which harmonic balance has a stable solution."""
     stable = decode(verdict) == "stable"
     if stable.any() and not stable.all():
         line = {"colors": [style.BLACK], "linewidths": 1.0, "linestyles": "dashed"}
@@ -197,7 +197,7 @@ def _draw_ends(axes, data):
 
 
 def _draw_chaos(axes, data):
-    """Dot the cells in which a run from the quiet solution of harmonic balance becomes chaotic."""
+    """Draw a dot in each cell where a run that starts on the quiet solution becomes chaotic."""
     chaotic = np.isin(decode(data["quiet_run_motion"]), ["low_chaotic", "high_chaotic"])
     row, column = np.nonzero(chaotic)
     place = data["frequency_ratio"].values[column], data["map_value"].values[row]

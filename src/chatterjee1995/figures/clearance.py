@@ -1,4 +1,4 @@
-"""Figures of optimum clearances (the paper's 6, 7 and 11), of design rules and of studies."""
+"""Figures 6, 7 and 11 of the paper (best clearances), and figures of design rules and studies."""
 
 from itertools import product
 
@@ -26,13 +26,13 @@ RULES = {
     "elastic": style.line("explicit, elastic contact", style.ORANGE),
     "flight": style.line("flight with corrections", style.BLACK, linewidth=1.8),
 }
-# Hatching of the cells of a study in which some motion with contacts has not settled.
+# Hatching of the cells in which not all motions with contacts have settled.
 UNSETTLED = {"hatch": "////", "edgecolor": style.BLACK, "linewidth": 0}
 
 
 @style.context()
 def draw_optimum(*, optimum):
-    """Draw the largest displacement of the quiet motion against clearance, for all datasets."""
+    """Draw the largest displacement of the quiet motion over the clearance, for each sweep."""
     drawn = style.figure("double", 4.4)
     sweep_plot(optimum, drawn.subplots())
     style.legend(drawn, 3)
@@ -41,7 +41,7 @@ def draw_optimum(*, optimum):
 
 @style.context()
 def draw_design_rules(*, design_rules):
-    """Draw optima and rules against each swept parameter, and the distribution of rules' errors."""
+    """Draw best clearances and rules for them over each parameter, and the errors of the rules."""
     swept = [[name for name in SWEPT if data.sizes[name] > 1] for data in design_rules]
     sweeps = [
         (d, names[0]) for d, names in zip(design_rules, swept, strict=True) if len(names) == 1
@@ -57,7 +57,7 @@ def draw_design_rules(*, design_rules):
 
 
 def _draw_sweep(axes, data, name):
-    """Draw optima (points) and rules (lines) against one parameter, for each mass ratio."""
+    """Draw best clearances as points and rules as lines, over the parameter `name`."""
     data = data.squeeze([other for other in SWEPT if other != name], drop=True)
     for index, mass_ratio in enumerate(data["mass_ratio"].values):
         one = data.sel(mass_ratio=mass_ratio)
@@ -79,7 +79,7 @@ def _draw_sweep(axes, data, name):
 
 
 def _draw_errors(axes, datasets):
-    """Draw for each rule the cumulative distribution of its relative errors, in per cent."""
+    """Draw the cumulative distribution of the errors of each rule, in per cent."""
     for rule, look in RULES.items():
         errors = np.concatenate(
             [
@@ -95,7 +95,7 @@ def _draw_errors(axes, datasets):
 
 @style.context()
 def draw_studies(*, studies):
-    """Draw the largest displacement of a study, a panel for each pair (restitution, frequency)."""
+    """Draw maps of the largest displacement, a panel for each restitution and frequency."""
     (data,) = studies
     pairs = list(product(data["restitution"].values, data["frequency"].values))
     rows, columns = data.sizes["restitution"], data.sizes["frequency"]
@@ -118,7 +118,7 @@ def draw_studies(*, studies):
 
 
 def _draw_study(axes, data, norm):
-    """Draw one panel, and return its coloured mesh."""
+    """Draw the map in one panel, and return its coloured cells."""
     plane = data["mass_ratio"].values, data["clearance"].values
     shown = mesh(axes, *plane, data["largest_displacement"].values.T, norm)
     settled = data["outcome_count"].sel(counted_outcome=["settled", "non_colliding"])

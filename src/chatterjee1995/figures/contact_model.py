@@ -1,4 +1,4 @@
-"""Accuracy of the contact model against restitution and load (figure kind `contact_model`)."""
+"""Figure kind `contact_model`: errors of the contact model over restitution and load."""
 
 import numpy as np
 from matplotlib.colors import ListedColormap, LogNorm
@@ -12,7 +12,7 @@ from impact_damper.plot.maps import mesh
 RULES = {"zero_penetration": "exit at zero penetration", "no_tension": "exit without pull"}
 LEVELS = 0.01, 0.05  # errors with a contour line
 LINEAR = 1e-3  # the load axis is linear below this value and logarithmic above
-# Markers of simulated contacts, in the order of the coordinate `size` of the dataset.
+# Markers of contacts in the smallest and in the largest simulated motion.
 MOTIONS = (
     {"color": style.BLACK, "marker": "o", "markersize": 2.6, "markerfacecolor": "none"},
     {"color": style.VERMILION, "marker": "_", "markersize": 5.0, "markeredgewidth": 0.5},
@@ -21,7 +21,7 @@ MOTIONS = (
 
 @style.context()
 def draw_contact_model(*, contact_model):
-    """Draw the error of e for both exit rules (first dataset), and all datasets' contacts."""
+    """Draw the error of e for both rules by which a contact can end, and simulated contacts."""
     drawn = style.figure("double", 4.0)
     panels = drawn.subplots(1, 2, sharex=True, sharey=True)
     data = contact_model[0]
@@ -53,7 +53,7 @@ def draw_contact_model(*, contact_model):
 
 
 def _draw_contacts(axes, data):
-    """Draw the loads of contacts in simulated motions against the damper's restitution."""
+    """Draw the load of each contact in simulated motions over the restitution of the damper."""
     used = data["used"].values[data["contact_used"].values]
     load, size = data["contact_load"].values, data["contact_size"].values
     for place in reversed(range(len(MOTIONS))):

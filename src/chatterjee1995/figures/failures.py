@@ -1,4 +1,4 @@
-"""Figures of contacts missed near grazing, and of the largest steps that keep the quiet motion."""
+"""Figures of how integrators fail: by missing shallow contacts, and by too large steps."""
 
 import numpy as np
 from matplotlib.ticker import LogLocator, NullFormatter
@@ -10,7 +10,7 @@ from impact_damper.plot.maps import edges_of
 
 COLUMNS = 3  # panels side by side
 LINEAR = "linear stability limit"
-# Lines: one for each accuracy, in the order of the dataset, and one for the linear limit.
+# Lines for both accuracies, in the order of the dataset, and for the linear stability limit.
 LINES = {
     "within 1 %": {"marker": "o", "markerfacecolor": style.WHITE, "linestyle": (0, (4, 2))},
     "within 10 %": {"marker": "s"},
@@ -20,7 +20,7 @@ LINES = {
 
 @style.context()
 def draw_missed_contacts(*, missed_contacts):
-    """Draw the share of contacts missed, one panel for each method, and a colour bar."""
+    """Draw maps of the share of missed contacts, one panel for each method."""
     (data,) = missed_contacts
     drawn, panels = style.grid(data.sizes["integrator"], 1.9, 0.8, COLUMNS)
     for k, (axes, name) in enumerate(zip(panels, data["integrator"].values, strict=True)):
@@ -40,7 +40,7 @@ def draw_missed_contacts(*, missed_contacts):
 
 
 def _panel(axes, data, name):
-    """Draw the panel of one method, and return the image of the shares of missed contacts."""
+    """Draw the panel of one method, and return the coloured map of missed contacts."""
     of, depths, fixed = data.sel(integrator=name), data["depth"].values, integrators()[name].fixed
     y = data["fixed_steps"].values if fixed else data["method_tolerance"].values
     shares = {"cmap": "cividis_r", "vmin": 0, "vmax": 1, "rasterized": True}
@@ -75,7 +75,7 @@ def draw_stable_steps(*, stable_steps):
         words = style.parameter_label(parameters_of(data), "mass_ratio", "clearance", "restitution")
         axes.set(xscale="log", yscale="log", xlabel=style.axis_label(data["contact_stiffness"]))
         axes.set_title(words)
-        # The limits of the axes are set here, because a panel may have no points.
+        # The axes get fixed limits, because a panel may have no points.
         stiffness, tested = data["contact_stiffness"].values, data["scaled_step"].values
         axes.set(xlim=(stiffness.min() / 2, stiffness.max() * 2))
         axes.set(ylim=(tested.min(), tested.max()))
@@ -88,7 +88,7 @@ def draw_stable_steps(*, stable_steps):
 
 
 def _draw_method(axes, data, index, title):
-    """Draw a method's largest steps for each accuracy, and the method's linear stability limit."""
+    """Draw the largest steps of a method for each accuracy, and its linear stability limit."""
     looks = dict(zip(data["accuracy"].values, list(LINES.values())[:2], strict=True))
     for accuracy, look in looks.items():
         step = data["stable_step"].sel(accuracy=accuracy) * data["contact_frequency"]
@@ -100,7 +100,7 @@ def _draw_method(axes, data, index, title):
 
 
 def _edges(values):
-    """Return edges of cells, midway between values on a log axis. A lone cell is a decade wide."""
+    """Return edges of cells around values on a log axis. A single cell is a decade wide."""
     if len(values) == 1:
         return np.asarray(values) * np.sqrt([0.1, 10])
     return np.exp(edges_of(np.log(values)))

@@ -1,4 +1,4 @@
-"""Figures of migration control (13 to 16 of the paper), of basins, and of release policies."""
+"""Figures 13 to 16 of the paper (migration), and figures of basins and release policies."""
 
 import numpy as np
 
@@ -30,7 +30,7 @@ DAMPER = "mass_ratio", "clearance", "restitution"
 
 @style.context({"axes.titley": None})  # keeps the panel letters clear of the upper axis
 def draw_migration(*, migration):
-    """Draw the displacement in the stored run of each case: whole, and around the last release."""
+    """Draw the displacement in one run of each case, whole and around the last release."""
     drawn = style.figure("double", 0.7 + 3.6 * len(migration))
     panels = drawn.subplots(2 * len(migration), 1, squeeze=False)[:, 0]
     for runs, whole, part in zip(migration, panels[::2], panels[1::2], strict=True):
@@ -77,7 +77,7 @@ def _draw_releases(axes, releases):
 
 @style.context({"axes.titley": None})
 def draw_basins(*, basins):
-    """Draw the basins of each dataset, with its attractors and unstable orbits."""
+    """Draw basins with attractors and unstable orbits, one panel for each dataset."""
     drawn, panels = style.grid(len(basins), 3.4 if len(basins) > 1 else 4.6, 0.2)
     for axes, data in zip(panels, basins, strict=True):
         basins_plot(data, axes)
@@ -86,7 +86,7 @@ def draw_basins(*, basins):
 
 @style.context({"axes.titley": None})
 def draw_release_policies(*, release_policies):
-    """Draw the share of success and the median cycles of each policy, for each damper."""
+    """Draw how often and how fast each release policy succeeds, for each damper."""
     (data,) = release_policies
     drawn = style.figure("double", 5.2)
     panels = drawn.subplots(2, data.sizes["case"], sharex=True, sharey="row", squeeze=False)
@@ -103,7 +103,7 @@ def draw_release_policies(*, release_policies):
 
 
 def _draw_case(above, below, one):
-    """Draw the policies with one damper: success above, cycles below."""
+    """Draw the policies for one damper: success in one panel, cycles in the panel below."""
     frequency = one["frequency"].values
     for k, policy in enumerate(one["policy"].values):
         look = style.curve(k) | {"marker": style.CURVES[k][2], "label": POLICIES[policy]}

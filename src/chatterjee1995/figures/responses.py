@@ -1,4 +1,4 @@
-"""Figures of responses, branches and shares of starts: 2 to 5, 8 and 10 of the paper."""
+"""Figures of responses (2 to 5, 8 and 10 of the paper), of branches and of shares of starts."""
 
 from impact_damper.data.datasets import flag, has_damper, is_settled, parameters_of
 from impact_damper.plot import style
@@ -8,7 +8,7 @@ from impact_damper.plot.motions import phase_panel
 from impact_damper.plot.responses import response as response_plot
 from impact_damper.plot.stacked_shares import shares as shares_plot
 
-# Lines of orbits without a damper, drawn behind branches of orbits with a damper.
+# Lines of orbits without a damper, drawn behind the orbits with a damper.
 FREE = {"color": style.BLACK, "linewidth": 0.7, "zorder": 2.2}
 FREE_UNSTABLE = {"color": style.GREY, "linewidth": 0.7, "linestyle": ":", "zorder": 2.1}
 
@@ -83,12 +83,12 @@ def draw_response(*, response, harmonic_balance, subharmonic, branches):
 
 
 def _restitution(data):
-    """Return the coefficient of restitution of the damper that a dataset was computed for."""
+    """Return the restitution of the damper of a dataset."""
     return parameters_of(data)["restitution"]
 
 
 def _period_3(motions):
-    """Return a dataset with only the settled motions whose period is a multiple of 3."""
+    """Return the dataset with only its settled motions whose period is a multiple of 3."""
     period = motions["period"]
     chosen = is_settled(motions) & (period > 1) & (period % 3 == 0)
     outcome = motions["outcome"].where(chosen, flag("outcome", "absent"))
@@ -97,7 +97,7 @@ def _period_3(motions):
 
 @style.context()
 def draw_branches(*, branches):
-    """Draw max |Z1| against frequency, a panel for each damper; all panels show the free orbits."""
+    """Draw max |Z1| over frequency, a panel for each damper. All panels show the free orbits."""
     damped = [data for data in branches if has_damper(data)]
     free = [data for data in branches if not has_damper(data)]
     drawn = style.figure("double", 4.6 * len(damped))

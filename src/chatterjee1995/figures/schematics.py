@@ -80,7 +80,7 @@ def inelastic_model():
 
 
 def place(u, v, level):
-    """Return points (n, 2) of the sheet for points of a plane: u to the right, v into the page."""
+    """Map points of a plane to the sheet (n, 2); u points to the right, v into the page."""
     u, v = np.broadcast_arrays(np.atleast_1d(u), v)
     return np.column_stack((0.25 + u + 0.5 * v, level + 0.6 * v))
 
@@ -110,7 +110,7 @@ def approach(axes, start, centre, radius, level, color, rate, **keywords):
 
 
 def passage(axes, low, high, edge, words, upward):
-    """Draw a switching of the damper: a vertical line from `low` to `high`, dashed above `edge`."""
+    """Draw the switching of the damper: an arrow between two planes, dashed above `edge`."""
     x = low[0]
     ends = [(x, low[1] + 0.03), (x, edge)]
     parts.stroke(axes, [(x, edge), high], "detail", linestyle=(0, (2, 2)))
@@ -190,7 +190,7 @@ def migration_scheme():
 
 
 def node(axes, x, y, width, height, words, color):
-    """Draw a box of a flow chart: a diamond if pale orange, rounded if pale sky."""
+    """Draw a box of a flow chart. Pale orange boxes are diamonds, pale sky ones are rounded."""
     across, up = width / 2, height / 2
     if color == style.PALE_ORANGE:
         corners = [(x - across, y), (x, y - up), (x + across, y), (x, y + up)]

@@ -1,1 +1,1 @@
-"""Numbers that claims and tables read from datasets."""
+"""What claims and tables read from datasets."""

@@ -10,7 +10,7 @@ from chatterjee1995.reading import orbits
 
 
 class Band(NamedTuple):
-    """A suppression band in W. Its lower end lies between `lower` and `lower + resolution`."""
+    """A suppression band. Its lower end lies at a W between `lower` and `lower + resolution`."""
 
     lower: float
     upper: float
@@ -28,23 +28,23 @@ class Band(NamedTuple):
 
 
 def high_motions(response, free):
-    """Return the mask of violent motions. No motion above the free resonance is violent."""
+    """Return a mask of violent motions. At a W above the end of the free resonance none is."""
     frequency = response.frequency
     size = xr.DataArray(orbits.resonance(free, frequency), {"frequency": frequency})
     return reading.touching(response) & (response.maximum_displacement > orbits.HALF * size)
 
 
 def quiet_motions(response, free):
-    """Return the mask of the quiet motions: settled, of period 1, with contact, and not violent."""
+    """Return a mask of quiet motions: settled, of period 1, with contacts, and not violent."""
     settled = reading.touching(response) & reading.is_outcome(response, "settled")
     return settled & (response.period == 1) & ~high_motions(response, free)
 
 
 def suppression_band(datasets, name):
-    """Return a curve's `Band`: from the highest W of a violent motion to the end of the resonance.
+    """Return the `Band` from the highest W of a violent motion to the end of the free resonance.
 
-    Without violent motions, `lower` and `resolution` are NaN. `resolution` is 0 if all violent
-    motions are periodic. Otherwise `resolution` is at most the step between two computed W.
+    Without violent motions, `lower` and `resolution` are NaN. If only periodic motions are
+    violent, `resolution` is 0. Otherwise it is at most the step between two computed W.
     """
     branches, free = orbits.of_curve(datasets, name)
     response = reading.get(datasets, "response", name)

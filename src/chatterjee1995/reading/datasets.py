@@ -1,6 +1,6 @@
-"""Choose datasets, and read parameters, flags and solutions of harmonic balance from datasets.
+"""Select datasets, and read parameters, flags and solutions of harmonic balance from them.
 
-`datasets` are keyed by stage, then by entry. A `design` is a dataset of stage `harmonic_balance`.
+`datasets[stage][name]` is a dataset. A `design` is a dataset of the stage `harmonic_balance`.
 """
 
 import numpy as np
@@ -13,7 +13,7 @@ RULES = ("figure_03c_rule", "figure_03b_rule", "figure_03a_rule")  # CAPTIONS wi
 BY_MASS = ("figure_05a", "figure_05b", "figure_05c")  # figure 5
 ELASTIC = (*BY_MASS, "figure_08")  # all simulated responses with elastic contact
 INELASTIC = "figure_10"  # BY_MASS[1] with e < 1
-# Words for the policies of release in tables and figures.
+# Release policy -> words for the policy in tables and figures.
 POLICIES = {
     "settled": "random phase once settled",
     "hold": "fixed number of cycles",
@@ -27,7 +27,7 @@ class Missing(LookupError):
 
 
 def get(datasets, stage, name):
-    """Return the dataset of a stage by its name, or raise Missing."""
+    """Return the dataset `name` of a stage, or raise Missing."""
     try:
         return datasets[stage][name]
     except KeyError:
@@ -35,55 +35,55 @@ def get(datasets, stage, name):
 
 
 def select(datasets, stage, names):
-    """Return several datasets of a stage by their names, or raise Missing."""
+    """Return the datasets `names` of a stage, or raise Missing."""
     return [get(datasets, stage, name) for name in names]
 
 
 def damped(datasets, stage) -> dict:
-    """Return the datasets of a stage with a damper, keyed by name."""
+    """Return a dict with the datasets of a stage that have a damper, keyed by name."""
     return {name: data for name, data in datasets.get(stage, {}).items() if has_damper(data)}
 
 
 def free(datasets, stage) -> dict:
-    """Return the datasets of a stage without a damper, keyed by name."""
+    """Return a dict with the datasets of a stage that have no damper, keyed by name."""
     return {name: data for name, data in datasets.get(stage, {}).items() if not has_damper(data)}
 
 
 def parameter(data, name):
-    """Return the value of a parameter from which a dataset was computed."""
+    """Return a parameter with which a dataset was computed."""
     return parameters_of(data)[name]
 
 
 def parameters(data, *names):
-    """Return the values of several parameters from which a dataset was computed."""
+    """Return several parameters with which a dataset was computed."""
     return tuple(parameters_of(data)[name] for name in names)
 
 
 def meaning(value):
-    """Return the meaning of a flag in words: "settled" for an outcome of 1."""
+    """Return the meaning of a flag in words, such as "settled"."""
     return decode(value).item().replace("_", " ")
 
 
 def is_outcome(data, *meanings):
-    """Return the mask of the motions with one of the given outcomes."""
+    """Return a mask of the motions that have one of the given outcomes."""
     return data.outcome.isin([flag("outcome", meaning) for meaning in meanings])
 
 
 def touching(response):
-    """Return the mask of bounded motions, settled or not, whose loose mass touches a wall."""
+    """Return a mask of the bounded motions in which the loose mass touches a wall."""
     steady = is_outcome(response, "settled", "quasi_periodic", "chaotic", "unresolved")
     return steady & (response.contacts > 0)
 
 
 def share_of_starts(response, motions):
-    """Return for each W the share of random starts that lead to a motion in the mask `motions`."""
+    """Return at each W the share of random starts that lead to motions in the mask `motions`."""
     total = response.motion_starts.sum("motion")
     led = response.motion_starts.where(motions, 0).sum("motion")
     return (led / total.where(total > 0)).fillna(0)
 
 
 def within(data, lower, upper):
-    """Return the part of a dataset with frequencies from lower to upper; raise Missing if empty."""
+    """Return the part of a dataset from frequency lower to upper, or raise Missing if empty."""
     part = data.sel(frequency=slice(lower, upper))
     if part.sizes["frequency"] == 0:
         raise Missing(f"There is no frequency from {lower:.4g} to {upper:.4g}")
@@ -91,7 +91,7 @@ def within(data, lower, upper):
 
 
 def crossing(x, y, level):
-    """Return the first x at which the polygon through the points (x, y) crosses `level`, or NaN."""
+    """Return the first x at which y, linear between the points, crosses `level`, or NaN."""
     side = np.sign(np.asarray(y) - level)
     changes = np.flatnonzero(side[:-1] * side[1:] < 0)
     if len(changes) == 0:
@@ -109,19 +109,19 @@ def band_edges(design):
 
 
 def stable_impacting(design):
-    """Return the signed amplitudes a of the stable solutions of (7); NaN for other solutions."""
+    """Return the amplitudes a of the stable solutions of (7) with impacts, and NaN for others."""
     stable = design.stability == flag("stability", "stable")
     return design.amplitude.where(stable & (design.kind == flag("kind", "impacting")))
 
 
 def quiet_balance(design):
-    """Return the signed amplitude a of the smallest stable solution of (7) at each W, or NaN."""
+    """Return the amplitude a, with its sign, of the smallest stable solution of (7) at each W."""
     amplitude = stable_impacting(design)
     return amplitude.isel(solution=np.abs(amplitude).fillna(np.inf).argmin("solution"))
 
 
 def design_point(orbit):
-    """Return the exact quiet orbit at Wp (the least h of the branch), or raise Missing."""
+    """Return the exact quiet orbit at the peak frequency Wp, or raise Missing."""
     if named(orbit, "design_orbit_status") != "found":
         raise Missing("There is no quiet orbit at a design point: the continuation ended before")
     return orbit.isel(point=int(np.argmin(orbit.followed_value.values)))

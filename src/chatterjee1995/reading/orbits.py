@@ -1,6 +1,6 @@
 """Branches of exact periodic orbits, cut into pieces and evaluated at any frequency.
 
-`free` are branches without damper. A high (violent) orbit exceeds half of the free resonance.
+`free` are branches without damper. High (violent) orbits exceed half of the free resonance.
 """
 
 import numpy as np
@@ -25,19 +25,19 @@ def free_of(datasets, data):
 
 
 def of_curve(datasets, name):
-    """Return branches of the curve `name`, and the branches of its oscillator without damper."""
+    """Return the branches of the curve `name`, and of its oscillator without damper."""
     branches = reading.get(datasets, "branches", name)
     return branches, free_of(datasets, branches)
 
 
 def pieces(branches) -> pd.DataFrame:
-    """Return a row for each piece of the branches; a piece joins two successive orbits.
+    """Return a table of the pieces of branches. A piece joins two successive orbits of a branch.
 
-    `lower` and `upper` are the ends in W. `size` is the mean max |Z1| of both orbits. `amplitude`
-    and `loose` are means of the complex first harmonic of Z1. The phase of `amplitude` is relative
-    to Z2, the phase of `loose` to Z1 - Z2. For a column `x`, `x_change` is x of the second orbit
-    minus x of the first orbit. `fewest` is the least, `contacts` the largest number of contacts.
-    `restitution` is the least (departure speed) / (approach speed).
+    `lower` and `upper` are the lowest and highest W. `frequency`, `size` (max |Z1|), `amplitude`
+    and `loose` are means of both orbits. Columns such as `size_change` hold the differences, second
+    orbit minus first. `amplitude` and `loose` are the complex first harmonic of Z1, with the phase
+    relative to Z2 and to Z1 - Z2. `fewest` and `contacts` are the least and the largest number of
+    contacts. `restitution` is the least ratio of departure speed to approach speed.
     """
     number = branches.orbit_branch.values
     first = np.flatnonzero(number[1:] == number[:-1])
@@ -68,7 +68,7 @@ def pieces(branches) -> pd.DataFrame:
 
 
 def ranges(part):
-    """Return the ranges [lower, upper] of W that pieces cover, ascending and without overlap."""
+    """Return the ranges [lower, upper] of W that pieces cover, merged and in ascending order."""
     merged = []
     for lower, upper in part[["lower", "upper"]].sort_values("lower").to_numpy():
         if merged and lower <= merged[-1][1]:
@@ -98,7 +98,7 @@ def coexisting(part, column):
 
 
 def crossings(part, frequency) -> pd.DataFrame:
-    """Return a row, interpolated in a piece, for each frequency and each piece around it."""
+    """Interpolate pieces at frequencies. Return a row for each frequency and piece around it."""
     frequency = np.atleast_1d(np.asarray(frequency, float))
     inside = frequency[:, None] >= part.lower.to_numpy()
     inside &= frequency[:, None] <= part.upper.to_numpy()
@@ -113,18 +113,18 @@ def crossings(part, frequency) -> pd.DataFrame:
 
 
 def smallest(part, frequency) -> pd.DataFrame:
-    """Return, at each frequency inside a piece, the row of `crossings` with the smallest size."""
+    """Return the row of `crossings` with the smallest size at each frequency."""
     rows = crossings(part, frequency)
     return rows.loc[rows.groupby("frequency")["size"].idxmin()]
 
 
 def largest_sizes(part, frequency):
-    """Return the largest size of the pieces at each frequency; NaN at a frequency in no piece."""
+    """Return the largest size at each frequency, NaN where there is no piece."""
     return crossings(part, frequency).groupby("frequency")["size"].max().reindex(frequency).values
 
 
 def resonance_fold(free):
-    """Return W and max |Z1| of the period-1 fold with the largest max |Z1|, or raise Missing."""
+    """Return W and max |Z1| of the fold that ends the free resonance, or raise Missing."""
     fold = free.event_kind.values == flag("event_kind", "fold")
     fold &= free.branch_period.values[free.event_branch.values] == 1
     if not fold.any():
@@ -134,7 +134,7 @@ def resonance_fold(free):
 
 
 def resonance(free, frequency):
-    """Return the largest max |Z1| of free orbits of period 1 at each W; NaN above the fold."""
+    """Return max |Z1| of the free resonance at each W, NaN above its fold."""
     end, _ = resonance_fold(free)
     part = pieces(free)
     sizes = largest_sizes(part[part.period == 1], frequency)
@@ -165,9 +165,9 @@ def smallest_quiet(branches, free, frequency):
 
 
 def high_counterparts(design, branches, free) -> pd.DataFrame:
-    """Return for each stable violent solution of (7) the row of `crossings` nearest in amplitude.
+    """Return the exact orbit nearest in amplitude to each stable violent solution of (7).
 
-    Rows are symmetric orbits of period 1 with two contacts: (7) approximates no other orbits.
+    Only symmetric orbits of period 1 with two contacts count: (7) approximates no other orbits.
     """
     part = pieces(branches)
     part = part[(part.period == 1) & (part.asymmetry < SYMMETRIC)]
@@ -181,7 +181,7 @@ def high_counterparts(design, branches, free) -> pd.DataFrame:
 
 
 def subharmonic(free):
-    """Return the pieces of the widest branch of the free subharmonic, or raise Missing."""
+    """Return the pieces of the free subharmonic, its widest branch, or raise Missing."""
     part = pieces(free)
     third = part[(part.period == 3) & (part.asymmetry < SYMMETRIC)]
     if third.empty:

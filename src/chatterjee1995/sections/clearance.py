@@ -15,7 +15,7 @@ from impact_damper.command.section import (
 )
 from impact_damper.model.bounds import MOST_RUNS
 
-# Axes of a study's grid. The stage numbers the cells (points of the grid) in this order.
+# Axes of the grid of a study. The stage counts the cells (grid points) in this order.
 AXES = ("mass_ratio", "clearance", "frequency", "restitution")
 
 
@@ -109,7 +109,7 @@ class Study(system.WithOscillator):
         return math.prod(points(getattr(self, key)) for key in AXES)
 
     def chunk(self, config, chunk) -> dict:
-        """Return the parameters of the job of a part; "2-of-4" is the second of four parts."""
+        """Return the parameters of the job for one part of the grid, such as `chunk` = "2-of-4"."""
         number, count = map(int, chunk.split("-of-"))
         grid = {
             "axes": {key: even(getattr(self, key)) for key in AXES},
@@ -126,7 +126,7 @@ class Study(system.WithOscillator):
 
 
 def points(given) -> int:
-    """Return the number of points of an axis. `given` is a number (one point) or a range."""
+    """Return how many points an axis has. `given` is a number (one point) or a range."""
     return getattr(given, "points", 1)
 
 

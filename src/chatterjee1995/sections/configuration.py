@@ -27,7 +27,7 @@ from impact_damper.command.section import (
 )
 from impact_damper.model import bounds
 
-# Pairs of keys. The product of the two values, the number of runs of a job, has an upper bound.
+# Pairs of keys. A job makes as many runs as the product of both values, which has a bound.
 COUNTS = (
     ("points.free", "search.starts"),
     ("points.simulated", "search.starts"),
@@ -36,14 +36,14 @@ COUNTS = (
     ("points.scanned", "controller.releases"),
     ("points.map_frequencies", "points.map_values"),
 )
-# Names of drawings. A figure of the kind `schematic` has one such name in `data`, not an entry.
+# Names of drawings. A figure of the kind `schematic` has one of them in its key `data`.
 SCHEMATICS = ("elastic_model", "inelastic_model", "migration_scheme", "algorithm", "impact_pair")
 
 TEXT = text("in Markdown or reStructuredText without links")
 
 
 class Points(Section):
-    """Numbers of points of grids."""
+    """How many points the grids have."""
 
     harmonic_balance: points_of("frequencies at which equations of harmonic balance are solved")
     free: points_of("frequencies of simulated motions without a damper")
@@ -113,7 +113,7 @@ class Controller(Section):
 
 
 class Captions(Section):
-    """The caption of each table, and for each kind of figure a text that its captions share."""
+    """Captions of tables, and texts that the captions of all figures of one kind share."""
 
     figures: entries(TEXT)
     tables: entries(TEXT)
@@ -155,7 +155,7 @@ class Figure(Section):
 
 
 def _curve_not_drawable(path, name, kind, config):
-    """Yield an error line for each reason why a kind of figure cannot draw a curve."""
+    """Yield an error line for each reason why a figure of a kind cannot draw a curve."""
     curve, stage = config.curves[name], kind.stages[0]
     if stage not in curve.stages:
         reason = f"must hold {stage} (what {dotted(path[:2])} draws)"
@@ -210,7 +210,7 @@ def configuration(given, trusted=False):
 
 
 def without_left_out(given):
-    """Return `given` without null entries, their names in figures, and figures without any name."""
+    """Return `given` without entries that are null, and remove these entries from figures."""
     if not isinstance(given, dict):
         return given
     sections = {key: value for key, value in given.items() if isinstance(value, dict)}

@@ -25,7 +25,7 @@ ORDER = count("order of the series", least=6, most=60)
 
 
 class ContactCells(Section):
-    """Numbers of cells of the map along restitution and along load."""
+    """How many cells the map has along restitution and along load."""
 
     restitutions: points_of("cells of the map along restitution")
     loads: points_of("cells of the map along load")
@@ -77,7 +77,7 @@ class ContactModel(
 
 
 class RigidCells(Section):
-    """Numbers of cells of the map along frequency and along contact stiffness."""
+    """How many cells the map has along frequency and along contact stiffness."""
 
     frequencies: points_of("cells of the map along frequency")
     stiffnesses: points_of("cells of the map along contact stiffness")

@@ -10,22 +10,22 @@ class Stage(NamedTuple):
 
     name: str
     section: str
-    # Method of an entry. It takes the whole configuration and returns the arguments of `function`.
-    # `workflow.job.made` makes an object of an argument such as {"Damper": {...}}.
+    # Method of the section: takes the whole configuration, returns the arguments of `function`.
+    # `workflow.job.made` turns an argument such as {"Damper": {...}} into an object.
     job: Callable
     function: str  # "module:name" of the function that computes the dataset
     message: str  # printed for each job
     reads: dict = {}  # argument of `function` -> stages that compute its value for the entry
     files: dict = {}  # argument of `function` -> JSON file; the content is the argument's value
     together: bool = False  # whether one job computes all entries (jobs start slowly)
-    # 2: other jobs wait for these jobs. 1: the longest jobs, which should not start last.
+    # 2 if other jobs wait for the job; 1 for the longest jobs, which should not start last.
     priority: int = 0
     paper: bool = True  # whether `snakemake` without a target computes the stage
     page: bool = False  # whether each entry has its own page
 
 
 def stage(function, message, **options):
-    """Mark a method of a section as a stage's job. By default the stage has the method's name."""
+    """Make a method of a section a stage (decorator), by default with the name of the method."""
 
     def mark(job):
         job.stage = {"name": job.__name__, "function": function, "message": message} | options
@@ -36,7 +36,7 @@ def stage(function, message, **options):
 
 @dataclass(frozen=True)
 class Shown:
-    """A table, or a kind of figure, of a chapter. A function of `module` makes it from datasets."""
+    """A table or a kind of figure. A function of `module` makes it from datasets."""
 
     name: str
     chapter: str
@@ -61,10 +61,10 @@ class Table(Shown):
 
 @dataclass(frozen=True)
 class Kind(Shown):
-    """A kind of figure, drawn by `draw_<name>`. For a schematic, `data` names the function."""
+    """A kind of figure. The function that draws it is `draw_<name>`, except for a schematic."""
 
     room = "figures"
     most: int = 6  # largest number of entries in a figure
-    # True: drawn curves must have a damper; a figure that reads `branches` then also draws the
-    # branches of the same oscillators without a damper. False: drawn curves must have no damper.
+    # Whether the curves to draw must have a damper (True) or none (False). If True, a figure of
+    # `branches` also draws the branches of the same oscillators without a damper.
     damper: bool = True

@@ -1,4 +1,4 @@
-"""Reference of the configuration, generated from its classes: every key with its allowed values."""
+"""Reference page of the configuration, made from its classes: keys with allowed values."""
 
 from typing import get_args, get_origin
 
@@ -28,13 +28,13 @@ def reference() -> str:
 
 
 def _table(model, keys=None):
-    """Return the Markdown table of a model's keys; if `keys` is given, only of these keys."""
+    """Return a Markdown table of all keys of a section, or of the given keys only."""
     fields = {key: each for key, each in model.model_fields.items() if keys is None or key in keys}
     return "\n".join([COLUMNS, *_rows("", fields), ""])
 
 
 def _rows(prefix, fields):
-    """Yield a table line for each field. In place of a section, yield the lines of its fields."""
+    """Yield a table line for each field, and in place of a section the lines of its fields."""
     for key, field in fields.items():
         kind, key = field.annotation, prefix + key
         if get_origin(kind) is dict:
@@ -60,7 +60,7 @@ def _item(kind):
 
 
 def _ranges(kind):
-    """Return a list with the fields of each range that may replace a number."""
+    """Return the fields of each range that may stand in place of a number, as a list."""
     parts = [get_args(part)[0] for part in get_args(kind) if hasattr(part, "__metadata__")]
     return [part.model_fields for part in parts if _section(part)]
 

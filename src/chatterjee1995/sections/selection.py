@@ -1,4 +1,4 @@
-"""Entries and captions that stages, figures, tables and chapters of the report use."""
+"""Entries and captions that belong to a stage, figure, table or chapter of the report."""
 
 import re
 
@@ -7,7 +7,7 @@ from impact_damper.model.parameters import SYMBOLS
 from impact_damper.model.text import number
 
 MANY = 3  # length above which a list is written as its smallest and largest value only
-# Key of an entry that holds several values of a parameter -> name of the parameter.
+# Key of an entry that lists values of a parameter -> name of the parameter.
 SWEPT = {
     "mass_ratios": "mass_ratio",
     "clearances": "clearance",
@@ -31,7 +31,7 @@ def job(config, stage, name) -> dict:
 
 
 def read_by(config, stage, name) -> dict:
-    """Return a dict: argument of a stage's function -> stages to read that have an entry `name`."""
+    """Return a dict: argument of a stage's function -> stages whose dataset `name` it receives."""
     return {
         key: [each for each in stages if name in entries(config, each)]
         for key, stages in STAGES[stage].reads.items()
@@ -39,7 +39,7 @@ def read_by(config, stage, name) -> dict:
 
 
 def figure_data(config, name) -> dict:
-    """Return a dict: stage -> entries that a figure draws, with all entries that `damper` adds."""
+    """Return a dict: stage -> entries that a figure draws, also branches added for comparison."""
     figure = config.figures[name]
     kind, found = KINDS[figure.kind], {}
     for stage in kind.stages:
@@ -93,7 +93,7 @@ def table_values(config, name) -> dict:
 
 
 def chapter_values(config, chapter) -> dict:
-    """Return the parameters of the job of a chapter: one for each figure and table."""
+    """Return the parameters of a chapter's job, one for each figure and table."""
     figures = {
         f"figure_{name}": figure_values(config, name) for name in figures_of(config, chapter)
     }
@@ -131,11 +131,11 @@ def _case(config, section, name):
 
 
 def caption(title, cases, text, remark) -> str:
-    """Return a figure's caption, a paragraph of reStructuredText with the symbols of the axes."""
+    """Return a figure's caption in reStructuredText, with symbols as on the axes (Ω for W)."""
     head = f"{title}: {cases}." if cases else f"{title}."
     whole = "\n".join(part for part in (head, text.strip(), remark) if part)
     whole = re.sub(r"\bW(?=p?(²|\b))", "Ω", whole)
-    # reStructuredText reads a text between bars as the name of a substitution.
+    # reStructuredText takes |Z1| for the name of a substitution.
     return whole.replace("omega_l", "ωl").replace("|", r"\|")
 
 

@@ -1,4 +1,4 @@
-"""Keys of the configuration for the paper's parameters of oscillator and damper, with bounds."""
+"""Configuration keys for the paper's parameters of oscillator and damper, with bounds."""
 
 import math
 from typing import ClassVar
@@ -58,7 +58,7 @@ def keys_of(names, *, needed=(), without=()):
 
 
 def given(section, names) -> dict:
-    """Return a dict: key -> value, for the keys in `names` that have a value in the section."""
+    """Return the values that a section gives for the keys `names`, as a dict."""
     found = {name: getattr(section, name, None) for name in names}
     return {name: value for name, value in found.items() if value is not None}
 
@@ -102,7 +102,7 @@ class Oscillators(keys_of(OSCILLATOR, needed=("damping", "linear_frequency"))):
 
 
 class WithOscillator(Section):
-    """An entry with an oscillator. The product of the values of the keys `counts` has a bound."""
+    """An entry with an oscillator. The keys in `counts` must not ask for too many runs in all."""
 
     oscillator: text("name of an entry of `oscillators`")
 
@@ -141,7 +141,7 @@ class MaybeWithDamper(keys_of(DAMPER, without=[COMMON]), WithOscillator):
                 yield missing((*path, key), reason)
 
     def has_damper(self) -> bool:
-        """Return whether the entry gives any parameter in `whole`."""
+        """Return whether the entry has a damper, by any of the parameters in `whole`."""
         return bool(given(self, self.whole))
 
     def system(self, config) -> dict:
@@ -160,7 +160,7 @@ def damper_values(entry, config) -> dict:
 
 
 def too_many(path, section, keys):
-    """Yield an error line if the product of values (or lengths of lists) at `keys` is too large."""
+    """Yield an error line if the product of the values at `keys` is too large (lists: lengths)."""
     counts = []
     for key in keys:
         value = section

@@ -11,7 +11,7 @@ from impact_damper.data.shares import wilson
 
 NEAR = 0.2  # an amplitude is near the exact amplitude if the relative difference is at most this
 ACCURACIES = {0.01: "1 %", 1e-3: "1e-3", 1e-6: "1e-6"}  # error of the amplitude -> text
-# Question about each cell of a map -> variable whose flag is the answer.
+# Question about each cell of a map -> variable that holds the answer.
 QUESTIONS = {
     "quiet motion": "quiet_verdict",
     "start at the quiet solution": "quiet_run_motion",
@@ -29,7 +29,7 @@ TRUTHS = {
 
 
 def harmonic_balance(datasets) -> pd.DataFrame:
-    """Return for each curve: d0 by rule (19), and amplitudes at Wp by balance and exact orbit."""
+    """Return a table of curves: d0 by rule (19), and amplitudes at the peak frequency Wp."""
     rows = []
     for name, data in reading.damped(datasets, "harmonic_balance").items():
         peak = float(data.peak_frequency)
@@ -54,7 +54,7 @@ def harmonic_balance(datasets) -> pd.DataFrame:
 
 
 def _exact_orbit(orbit):
-    """Return columns on the exact quiet orbit and on random starts, both at the design point."""
+    """Return columns on the exact quiet orbit and on random starts at the design point."""
     columns = {"max |Z1| at Ωp, exact orbit": np.nan, "stability of the exact orbit": ""}
     if orbit is None:
         return columns
@@ -76,7 +76,7 @@ def _exact_orbit(orbit):
 
 
 def harmonic_convergence(datasets) -> pd.DataFrame:
-    """Return for each motion: harmonics needed, decrease of the error, results of cold starts."""
+    """Return a table of motions: harmonics needed, decay of the error, results of cold starts."""
     return pd.DataFrame(
         {"motion": name} | _convergence(data)
         for name, data in datasets.get("harmonic_convergence", {}).items()
@@ -116,14 +116,14 @@ def _convergence(data):
 
 
 def _needed(highest, error, accuracy):
-    """Return the smallest N from which on all errors are at most `accuracy`, or NaN."""
+    """Return the number of harmonics from which on all errors are at most `accuracy`, or NaN."""
     above = np.flatnonzero(~(error <= accuracy))
     first = above[-1] + 1 if len(above) else 0
     return highest[first] if first < len(highest) else np.nan
 
 
 def balance_map(datasets) -> pd.DataFrame:
-    """Return how many cells of each map have each verdict, are chaotic, or agree in amplitude."""
+    """Return a table of maps: cells with each verdict, in chaos, and with the right amplitude."""
     rows = []
     for name, data in datasets.get("balance_map", {}).items():
         found = []
@@ -139,7 +139,7 @@ def balance_map(datasets) -> pd.DataFrame:
 
 
 def _answers(meaning):
-    """Return two answers from a flag's meaning: of harmonic balance, and of the exact motions."""
+    """Split a verdict such as "stable_absent" into the answers of balance and exact motions."""
     balance, _, truth = meaning.partition("_")
     if balance not in ("none", "stable", "unstable") or not truth:
         balance, truth = "", meaning
@@ -148,7 +148,7 @@ def _answers(meaning):
 
 
 def _cells(question, balance, truth, count, total):
-    """Return a row: a count of cells, the share count / total, and the share's Wilson interval."""
+    """Return a row with a count of cells, their share of all cells, and its confidence interval."""
     share, lower, upper = wilson(int(count), int(total))
     return {
         "question": question,
@@ -163,7 +163,7 @@ def _cells(question, balance, truth, count, total):
 
 
 def _summary(data):
-    """Yield rows on chaos of violent motions, and on cells where balance and orbit are stable."""
+    """Yield rows on chaotic violent motions, and on cells that balance rightly calls stable."""
     kinds = decode(data["high_run_motion"])
     chaotic = np.sum(kinds == "high_chaotic")
     settled = np.sum(kinds == "high")

@@ -1,4 +1,4 @@
-"""Tables of branches of periodic orbits and of the bifurcations of stable orbits."""
+"""Tables of branches of periodic orbits, and of bifurcations at stable orbits."""
 
 import numpy as np
 import pandas as pd
@@ -8,7 +8,7 @@ from chatterjee1995.tables.files import DAMPER, parameter_columns
 from impact_damper.data.datasets import flag
 from impact_damper.data.sweeps import runs_of_true
 
-# Reason to stop the continuation although the branch goes on -> text of the table.
+# Why a branch is not followed to its end -> text of the table.
 LEFT = {
     "unstable": "left among unstable orbits, since it winds through chaos there",
     "point limit": "left after the largest number of orbits, since it winds through chaos",
@@ -17,7 +17,7 @@ LEFT = {
 
 
 def orbits(datasets) -> pd.DataFrame:
-    """Return branches of periodic orbits: period, range of W, stable parts, ends and errors."""
+    """Return a table of branches of periodic orbits: period, range of W, stability and ends."""
     rows = []
     for name, data in _branches(datasets):
         for branch in range(data.sizes["branch"]):
@@ -77,7 +77,7 @@ def _stable_ranges(value, stable, *, closed):
 
 
 def bifurcations(datasets) -> pd.DataFrame:
-    """Return bifurcations and changes of contacts, at or next to stable orbits."""
+    """Return a table of bifurcations and changes of contacts, at or next to stable orbits."""
     rows = []
     for name, data in _branches(datasets):
         for k in np.flatnonzero(_next_to_stable(data)):
@@ -103,7 +103,7 @@ def bifurcations(datasets) -> pd.DataFrame:
 
 
 def _next_to_stable(data):
-    """Return for each event whether the orbit at, just before or just after the event is stable."""
+    """Return for each event whether the orbit at the event or an orbit next to it is stable."""
     found = np.zeros(data.sizes["event"], bool)
     for branch in range(data.sizes["branch"]):
         points = np.flatnonzero(data["orbit_branch"].values == branch)

@@ -1,4 +1,4 @@
-"""Tables of the optimum d0 (with the least max |Z1| or first harmonic) and of rules for d0."""
+"""Tables of the optimum clearance d0, at which the machine moves least, and of rules for d0."""
 
 import numpy as np
 import pandas as pd
@@ -22,7 +22,7 @@ CRITERIA = {"displacement": "max |Z1|", "first_harmonic": "first harmonic of Z1"
 
 
 def optimum(datasets) -> pd.DataFrame:
-    """Return for each sweep the optimum d0 by simulation, by (7), and by rules."""
+    """Return a table of sweeps: the optimum d0 by simulation, by equation (7), and by rules."""
     rows = []
     for name, data in datasets.get("optimum", {}).items():
         best, rule = float(data.optimum_clearance), float(data.rule_clearance)
@@ -48,7 +48,7 @@ def optimum(datasets) -> pd.DataFrame:
 
 
 def design_rules(datasets) -> pd.DataFrame:
-    """Return how many optima of grids and sweeps each rule predicts within 1 % and 10 %."""
+    """Return a table of rules: how many optimum d0 each rule predicts within 1 % and 10 %."""
     cells = pd.concat([*_grids(datasets), *_sweeps(datasets)], ignore_index=True)
     grids = cells[cells.group != SWEEPS]
     elastic = np.where(grids.restitution == 1, "all grids, e = 1", "all grids, e < 1")
@@ -73,7 +73,7 @@ def _grids(datasets):
 
 
 def _sweeps(datasets):
-    """Yield a frame for each sweep, with the columns of `_grids`. Optima of sweeps are stable."""
+    """Yield a frame for each sweep, with columns as in `_grids`. Optima of sweeps are stable."""
     for data in datasets.get("optimum", {}).values():
         parameters = parameters_of(data)
         oscillator, damper = oscillator_of(data), damper_of(data, clearance=1.0)
@@ -94,7 +94,7 @@ def _sweeps(datasets):
 
 
 def _agreement(cells):
-    """Return counts and errors of the optima that one rule predicts in a group of designs."""
+    """Return how well one rule predicts the optimum d0 of the designs in a group."""
     error = 100 * (cells.rule_ratio / cells.best_ratio - 1).abs()
     excess = 100 * cells.rule_excess
     return (

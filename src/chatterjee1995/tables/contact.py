@@ -14,12 +14,12 @@ EXITS = {
 
 
 def _count(values, meaning):
-    """Return the number of values of a flag with one meaning."""
+    """Return how many values of a flag have a meaning."""
     return int(np.sum(decode(values) == meaning))
 
 
 def contact_model(datasets) -> pd.DataFrame:
-    """Return for each exit rule: map cells counted by verdict, and contacts without load."""
+    """Return a table of rules by which a contact ends: verdicts in map cells, unloaded contacts."""
     rows = []
     for name, data in datasets.get("contact_model", {}).items():
         for rule in data.exit_rule.values:
@@ -52,7 +52,7 @@ def _unloaded(data):
 
 
 def rigid_limit(datasets) -> pd.DataFrame:
-    """Return the errors of rigid walls, relative to compliant walls, and counts of map cells."""
+    """Return a table of dampers: errors of rigid walls, and counts of map cells."""
     rows = []
     for name, data in datasets.get("rigid_limit", {}).items():
         own = data.sel(frequency=reading.parameter(data, "frequency"), method="nearest")
@@ -89,7 +89,7 @@ VERDICTS = {
 
 
 def _needed(own):
-    """Return for each error the r1 above which rigid walls err less, or why this r1 is unknown."""
+    """Return for each error level the r1 above which rigid walls err less, or why it is unknown."""
     columns = {}
     for k, level in enumerate(own.threshold.values):
         value = float(own.needed_stiffness[k])

@@ -75,6 +75,6 @@ def _rounded(value, digits=DIGITS):
 
 
 def parameter_columns(data, *names) -> dict:
-    """Return a dict: head of a column -> parameter, for the parameters `names` in a dataset."""
+    """Return a dict: head of a column -> parameter, for the `names` that a dataset has."""
     parameters = parameters_of(data)
     return {HEADS[name]: parameters[name] for name in names if name in parameters}

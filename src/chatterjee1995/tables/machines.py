@@ -11,7 +11,7 @@ ADVICE = {"build": "build it", "do_not_build": "do not build it"}
 
 
 def machines(datasets) -> pd.DataFrame:
-    """Return a row for each machine: gap; displacement without and with damper, with absorber."""
+    """Return a table of machines: gap, displacements without damper, with damper, with absorber."""
     return pd.DataFrame([_row(name, data) for name, data in datasets.get("machines", {}).items()])
 
 

@@ -8,7 +8,7 @@ from chatterjee1995.methods.labels import MODELS, method_in_words
 from chatterjee1995.reading import datasets as reading
 from impact_damper.data.datasets import decode, parameters_of
 
-# Text of a required accuracy for each quantity; `{:g}` takes the largest error allowed.
+# Quantity -> text of the accuracy that is required. `{:g}` is the largest error allowed.
 WORDS = {
     "amplitude": "max |Z1|, relative error {:g}",
     "state": "state, error {:g}",
@@ -21,7 +21,7 @@ WORDS = {
 
 
 def models(datasets) -> pd.DataFrame:
-    """Return for each scene (test case) and method the cheapest accurate run, or the best run."""
+    """Return a table of the cheapest accurate run of each method on each scene, or its best run."""
     rows = []
     for name, data in datasets.get("accuracy", {}).items():
         asked = parameters_of(data)["accuracy"]
@@ -59,7 +59,7 @@ def models(datasets) -> pd.DataFrame:
 
 
 def cheapest(data, labels):
-    """Return the index of the accurate run with the least work by a method in `labels`, or None."""
+    """Return the index of the cheapest accurate run of all methods in `labels`, or None."""
     meets = decode(data["meets_accuracy"]).values == "yes"
     meets &= np.isin(data["method"].values, labels)
     work = np.where(meets, data["operations"].values, np.inf)
@@ -67,7 +67,7 @@ def cheapest(data, labels):
 
 
 def _most_accurate(data, method):
-    """Return the index of a method's best run by max |Z1| (in chaos by contact rate), or None."""
+    """Return the index of a method's run with the least error, or None."""
     runs = np.flatnonzero(data["method"].values == method)
     if not len(runs):
         return None
@@ -89,7 +89,7 @@ def _errors(of):
 
 
 def _averages(data, of):
-    """Return columns with the averages of a run on a chaotic scene, and the reference averages."""
+    """Return columns with the averages of a run on a chaotic scene, and reference values."""
     row = {}
     heads = {"contact_rate": "contacts a cycle", "displacement": "mean max |Z1|"}
     for key, head in (heads | {"exponent": "Lyapunov exponent"}).items():
@@ -100,7 +100,7 @@ def _averages(data, of):
 
 
 def missed_contacts(datasets) -> pd.DataFrame:
-    """Return how many contacts near grazing each method finds and misses, over all depths."""
+    """Return a table of methods: how many contacts near grazing each method finds and misses."""
     rows = []
     for name, data in datasets.get("missed_contacts", {}).items():
         contacts = int(reading.parameter(data, "passages")) * data.sizes["depth"]
@@ -130,7 +130,7 @@ def missed_contacts(datasets) -> pd.DataFrame:
 
 
 def stable_steps(datasets) -> pd.DataFrame:
-    """Return for each method, accuracy and r1 the step up to which all steps are accurate."""
+    """Return a table of the largest accurate step, for each method, accuracy and stiffness r1."""
     rows = []
     for name, data in datasets.get("stable_steps", {}).items():
         cycle = 2 * np.pi / reading.parameter(data, "frequency")

@@ -14,7 +14,7 @@ KINDS = {number: kind for kind, number in DAMPED_MOTION.items()}
 
 
 def migration(datasets) -> pd.DataFrame:
-    """Return the shares of releases to each free motion, and the results of controller runs."""
+    """Return a table of cases: to which free motions releases lead, and how control runs end."""
     rows = []
     for name, case in datasets.get("migration", {}).items():
         reached = case.trial_outcome == flag("trial_outcome", "reached")
@@ -58,7 +58,7 @@ def _destination(motion):
 
 
 def release_scan(datasets) -> pd.DataFrame:
-    """Return rows: kind of damped motion, free motions to which its releases lead, at which W."""
+    """Return a table of scans: to which free motions releases lead at which W."""
     rows = []
     for name, scan in datasets.get("release_scan", {}).items():
         ends = list(scan.free_motion.values)
@@ -97,7 +97,7 @@ def _ranges(grid, chosen):
 
 
 def release_policies(datasets) -> pd.DataFrame:
-    """Return success, cycles and cost of each policy, by damper and forcing frequency W."""
+    """Return a table of release policies: success, cycles and cost, for each damper and W."""
     rows = []
     for data in datasets.get("release_policies", {}).values():
         dims = ("case", "frequency", "policy")

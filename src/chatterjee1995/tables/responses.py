@@ -10,7 +10,7 @@ from chatterjee1995.reading.datasets import Missing
 from chatterjee1995.tables.files import DAMPER, parameter_columns
 from impact_damper.data.motion_variables import OUTCOME
 
-# Stage that stores the outcome of each start -> name of the stage in the table `outcomes`.
+# Stage whose datasets hold the outcome of each start -> words for the stage in the table.
 SWEPT = {
     "response": "frequency responses",
     "subharmonic": "starts on the free subharmonic",
@@ -19,7 +19,7 @@ SWEPT = {
 
 
 def outcomes(datasets) -> pd.DataFrame:
-    """Return the numbers of starts with each outcome."""
+    """Return a table of how many starts have each outcome."""
     rows = []
     for stage, words in SWEPT.items():
         for name, data in reading.damped(datasets, stage).items():
@@ -37,7 +37,7 @@ def outcomes(datasets) -> pd.DataFrame:
 
 
 def _outcomes(stage, name, counts):
-    """Return the columns with the number of starts of each outcome."""
+    """Return a row that says how many starts have each outcome."""
     counts = {each: int(value) for each, value in dict(counts).items() if each != "absent"}
     starts = sum(counts.values())
     return {
@@ -58,7 +58,7 @@ def _outcomes(stage, name, counts):
 
 
 def quasi_periodic(datasets) -> pd.DataFrame:
-    """Return each quasi-periodic motion, its frequencies, and how many random starts lead to it."""
+    """Return a table of quasi-periodic motions: frequencies, and starts that lead to each."""
     rows = []
     for name, data in reading.damped(datasets, "response").items():
         for motion in _motions(data, reading.is_outcome(data, "quasi_periodic")):
@@ -84,7 +84,7 @@ def quasi_periodic(datasets) -> pd.DataFrame:
 
 
 def chaos(datasets) -> pd.DataFrame:
-    """Return the violent chaotic motions and the mean number of cycles for which chaos lasts."""
+    """Return a table of violent chaotic motions, with the cycles for which chaos lasts."""
     rows = []
     for name, data in reading.damped(datasets, "response").items():
         try:
@@ -111,13 +111,13 @@ def chaos(datasets) -> pd.DataFrame:
 
 
 def _motions(data, chosen):
-    """Yield as a dataset each motion of a response that the mask `chosen` selects."""
+    """Yield each motion of a response that the mask `chosen` selects, as a dataset."""
     for k, j in np.argwhere(chosen.transpose("frequency", "motion").values):
         yield data.isel(frequency=k, motion=j)
 
 
 def subharmonic(datasets) -> pd.DataFrame:
-    """Return the one-third subharmonic without damper, and its stable branches with damper."""
+    """Return a table of the one-third subharmonic without damper, and with damper where stable."""
     rows = []
     for name, free in reading.free(datasets, "branches").items():
         try:
@@ -149,7 +149,7 @@ def subharmonic(datasets) -> pd.DataFrame:
 
 
 def _subharmonic(name, damper, data):
-    """Return all columns of a row on a subharmonic; the caller fills the empty columns."""
+    """Return a row on a subharmonic. The caller fills the columns that are empty here."""
     columns = parameter_columns(data, "damping", "mass_ratio", "clearance")
     return (
         {"curve": name, "damper": damper}
@@ -162,7 +162,7 @@ def _subharmonic(name, damper, data):
 
 
 def _stable_part(part):
-    """Return number, period, range of W and size of the stable part of a branch."""
+    """Return period, range of W and size of the stable part of a branch, and its label."""
     return {
         "branch": f"{part.branch.iloc[0] + 1}",
         "period": part.period.iloc[0],

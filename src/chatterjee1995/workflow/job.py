@@ -22,8 +22,8 @@ import psutil
 # Collect garbage rarely: objects of imported modules stay in use, and a job makes few others.
 gc.set_threshold(10_000)
 
-# Seconds between checks that Snakemake is alive. A new run of Snakemake takes longer than LOOK to
-# start its first job. By that time the jobs of an old run have ended.
+# Seconds between checks that Snakemake is alive. If it is not, the job ends. A new run of Snakemake
+# needs more than LOOK seconds to start its first job, so no old job is then left.
 LOOK = 0.5
 
 # Key of a parameter such as {"linspace": [0.6, 2.6, 41]} -> function that makes its value.
@@ -49,7 +49,7 @@ def imported(name):
 
 
 def made(value):
-    """Return a parameter of a job after calling the functions of MADE that the parameter names."""
+    """Return a parameter of a job, with parts such as {"linspace": [...]} replaced by values."""
     if isinstance(value, list):
         return [made(each) for each in value]
     if not isinstance(value, dict):
@@ -69,7 +69,7 @@ def counts(first, last, points):
 
 
 class Job:
-    """A job, given by the variable `snakemake` of its script. A job ends soon after Snakemake."""
+    """A job, given by the variable `snakemake` of its script. If Snakemake stops, the job ends."""
 
     def __init__(self, snakemake):
         self.snakemake = snakemake
@@ -98,7 +98,7 @@ class Job:
             shutil.rmtree(steps, ignore_errors=True)
 
     def computed(self, given, offered):
-        """Return the stage's dataset. The stage's function gets from `offered` what it accepts."""
+        """Return the stage's dataset. Values in `offered` that its function does not take are unused."""
         function = imported(self.given["function"])
         taken = inspect.signature(function).parameters
         offered = offered | {"workers": self.snakemake.threads}

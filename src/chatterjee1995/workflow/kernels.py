@@ -1,4 +1,4 @@
-"""Compile every kernel (numba function) and cache the code, before jobs call the kernel."""
+"""Compile all kernels (numba functions) into the cache before jobs call them."""
 
 import gc
 import json
@@ -12,12 +12,12 @@ WARM_UP = "impact_damper.command.warm_up"
 
 
 def compiled_kernels(orders) -> str:
-    """Return the text of the marker file: digest of the sources, and orders of Taylor series."""
+    """Return a text that changes with the sources of the kernels and with `orders`."""
     return f"{kernel_digest(*map(module_file, (WARM_UP, __name__)))} {orders}\n"
 
 
 def compile_all(processes, orders) -> None:
-    """Compile all kernels. The stage `accuracy` compares the pairs of Taylor orders in `orders`."""
+    """Compile all kernels. `orders` are pairs of Taylor orders for the stage `accuracy`."""
     from chatterjee1995.workflow.job import end_with_parent
     from impact_damper.command.warm_up import warm_up_orbits, warm_up_settling
 
