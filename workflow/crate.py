@@ -2,7 +2,7 @@
 
 https://www.researchobject.org/workflow-run-crate/profiles/provenance_run_crate lists the contents:
 files, rules as steps of the workflow, and each job with its function, parameters, inputs,
-outputs and times. The data come from Snakemake's folder `.snakemake/metadata` and from the folder `timings`.
+outputs and times. The data come from the folders `.snakemake/metadata` and `timings`.
 """
 
 import ast

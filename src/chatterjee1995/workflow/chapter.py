@@ -8,7 +8,7 @@ from impact_damper.data.whole_files import whole
 
 
 def make_table(name, given, datasets, path) -> None:
-    """Save a table as CSV and Markdown, and its caption. `selection.table_values` returns `given`."""
+    """Save a table as CSV and Markdown, and its caption. `given`: see `selection.table_values`."""
     from chatterjee1995.tables import files as table_files
 
     module = import_module(given["module"])
@@ -23,7 +23,7 @@ def make_table(name, given, datasets, path) -> None:
 
 
 def draw_figure(given, datasets, path) -> None:
-    """Save a figure as PDF and PNG, and its caption. `selection.figure_values` returns `given`."""
+    """Save a figure as PDF and PNG, and its caption. `given`: see `selection.figure_values`."""
     from impact_damper.plot.style import save_figure
 
     drawn = given["drawn"].items()

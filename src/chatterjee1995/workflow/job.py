@@ -98,7 +98,7 @@ class Job:
             shutil.rmtree(steps, ignore_errors=True)
 
     def computed(self, given, offered):
-        """Return the stage's dataset. Values in `offered` that its function does not take are unused."""
+        """Return the stage's dataset. Its function gets the values in `offered` that it accepts."""
         function = imported(self.given["function"])
         taken = inspect.signature(function).parameters
         offered = offered | {"workers": self.snakemake.threads}
