@@ -66,7 +66,7 @@ class Allowed:
 
 
 def number(meaning="", *, above=None, least=None, most=None, why="", also=""):
-    """Return the type of a finite number within bounds. Messages add "or", then `also`."""
+    """Return the type of a finite number. `also` is a word for other values that are allowed."""
     bounds = {"greater than": above, "at least": least, "at most": most}
     words = [f"a finite number{also and f' or {also}'}", *_bounds(bounds)]
     kind = confloat(strict=True, allow_inf_nan=False, gt=above, ge=least, le=most)
@@ -185,7 +185,7 @@ class Section(BaseModel):
     @model_validator(mode="wrap")
     @classmethod
     def _name_keys(cls, value, handler):
-        """Add the known keys to a message about an unknown key, or the needed keys if one lacks."""
+        """List all known keys in an error about an unknown key, or the needed keys if one lacks."""
         try:
             return handler(value)
         except ValidationError as error:

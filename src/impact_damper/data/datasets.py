@@ -94,7 +94,7 @@ def from_si(data, scales) -> xr.Dataset:
 
 
 def _converted(data, convert, scales):
-    """Return a copy of a dataset. Variables with a unit get the values convert(values, unit)."""
+    """Return a copy of a dataset. convert(values, unit) replaces the values that have a unit."""
     found = {}
     for name, each in data.variables.items():
         kind = _kind(name, data)
@@ -121,7 +121,7 @@ def _kind(name, data):
 
 
 def _name_unit(variable, kind):
-    """Set the attributes of a converted variable in place."""
+    """Set the unit and the description of a converted variable, in place."""
     if kind == "state":
         variable.attrs["units"] = STATE_UNITS
     elif kind == "mixed":

@@ -2,7 +2,7 @@
 
 from impact_damper.data.variables import register
 
-# The promised displacement holds at another gap up to an excess by the factor KEEPS.
+# A gap keeps the promise if its displacement is at most KEEPS times the promised displacement.
 # A damper is worth building if it lowers the largest displacement by the fraction WORTH or more.
 KEEPS, WORTH = 1.1, 0.25
 

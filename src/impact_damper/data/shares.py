@@ -31,10 +31,10 @@ def wilson(successes, total):
 
 
 def bounding_rank(share, total, doubt=DOUBT) -> int:
-    """Return the rank k of the sample that bounds a share of all values from above.
+    """Return k. At least the given share of all values is below the k-th largest random sample.
 
-    Of `total` random samples the k-th largest is a bound with the confidence 1 - doubt, for any
-    distribution (S. S. Wilks, Ann. Math. Stat. 12, 1941). With too few samples k is 0.
+    There are `total` samples. The bound has the confidence 1 - doubt for any distribution (S. S.
+    Wilks, Ann. Math. Stat. 12, 1941). With too few samples k is 0.
     """
     return int(np.sum(bdtr(np.arange(total), total, 1 - share) <= doubt))
 
@@ -48,6 +48,6 @@ def escape_rate(lives, horizon):
     """Return the rate at which runs end, per cycle, and its 95 % interval, shape (3,)."""
     captures = np.sum(lives <= horizon)
     exposure = np.sum(np.minimum(lives, horizon))
-    # The interval of a Poisson count has quantiles of the gamma distribution as ends.
+    # The ends of a confidence interval for a Poisson count are quantiles of a gamma distribution.
     lower = gammaincinv(captures, 0.025) if captures else 0.0
     return np.array([captures, lower, gammaincinv(captures + 1, 0.975)]) / exposure

@@ -36,7 +36,7 @@ FURTHER_RANGE = {"least": 0, "most": 10**7}
 # Largest number of runs in one call of a function. Memory must hold the results of all runs.
 MOST_RUNS = 10**6
 RUNS_RANGE = {"least": 1, "most": MOST_RUNS}
-# PERIODS_RANGE: cycles in a run. LIFETIME_RANGE: the same, for runs that show if chaos ends.
+# Cycles in a run. LIFETIME_RANGE is for runs that measure how long a motion stays chaotic.
 PERIODS_RANGE = {"least": 1, "most": 10**6}
 LIFETIME_RANGE = {"least": 100, "most": 10**7}
 SEED_RANGE = {"least": 0, "most": 2**63 - 1}
@@ -126,7 +126,7 @@ def check_frequency(value):
 
 
 def check_starts(starts, points, least=1):
-    """Raise an error unless least <= starts <= max(least, MOST_RUNS // points)."""
+    """Check the number of starts at each of `points` values of a parameter."""
     most = max(least, MOST_RUNS // points)
     check_count("starts", starts, least=least, most=most, why=f"memory holds {MOST_RUNS} runs")
 

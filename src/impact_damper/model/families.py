@@ -51,10 +51,10 @@ def read_followed(model, parameter, span) -> tuple:
 
 
 def family_of(oscillator, damper, frequency, parameter, span):
-    """Return a function that packs the parameters of the system with a given coordinate.
+    """Return a function, the coordinate of the given system, and the coordinates of the span.
 
-    The coordinate is `parameter` or its logarithm. Also return the coordinate of the given system,
-    and both ends of the span. Raise ValueError if the contact is too stiff at an end.
+    The coordinate is `parameter` or its logarithm. The function returns the array of parameters at
+    a coordinate. Raise ValueError if the contact is too stiff at an end of the span.
     """
     part = {None: None, Oscillator: oscillator, Damper: damper}[PARAMETERS[parameter]]
     value = frequency if part is None else getattr(part, parameter)

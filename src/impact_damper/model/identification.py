@@ -235,7 +235,7 @@ def _read(data, kinds):
 
 
 def _columns(path, kinds):
-    """Return the columns of a CSV file that `kinds` names, as tuples of numbers in SI units."""
+    """Return the columns `kinds` of a CSV file, as tuples of numbers in SI units."""
     with path.open(encoding="utf-8-sig", newline="") as file:
         reader = csv.DictReader(file)
         matches = filter(None, map(COLUMN.fullmatch, reader.fieldnames or ()))

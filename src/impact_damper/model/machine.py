@@ -16,7 +16,7 @@ GRAVITY = 9.81  # acceleration of gravity, m/s^2
 ANGLES = {"least": 0, "most": 1.5708}  # range of the inclination of a gap, radian
 VERTICAL = 1.5707  # least inclination of a vertical gap, radian
 FRICTIONS = {"least": 0, "most": 10}  # range of a coefficient of friction
-# Arguments of `mounting` that are keys of the damper in a machine's file.
+# Keys of the damper in a machine's file that are passed to the function `mounting`.
 MOUNT = ("inclination", "friction_coefficient", "normal_force")
 GRAVITIES = {"least": -1e3, "most": 1e3}  # range of gravity along the gap, m/s^2
 # Largest damping ratio. At 1, critical damping, the machine no longer vibrates.

@@ -212,7 +212,7 @@ def beyond_closed_forms(oscillator, damper) -> list:
 
 
 def check_closed_form(oscillator, damper):
-    """Raise an error if `damper` is no Damper, or if closed forms do not apply to a parameter."""
+    """Raise an error if closed forms do not apply, or if `damper` is no Damper."""
     check_damper(damper)
     why = "must be 0 in closed forms and harmonic balance with a damper; simulate it instead"
     for part, name in beyond_closed_forms(oscillator, damper):
@@ -232,7 +232,7 @@ NONLINEAR = {
     if each.metadata["power"]
 }
 SPRING_POWER = max(NONLINEAR.values())
-# Symbol of each parameter by its name, for tables and captions.
+# Symbols of parameters, for tables and captions. The keys are the names of the parameters.
 SYMBOLS = {
     each.name: each.metadata["symbol"]
     for part in (Oscillator, Damper)

@@ -144,7 +144,7 @@ def absolute_value(value, quantity) -> float | None:
 
 
 def physical(quantity, meaning="", **others):
-    """Return a dataclass field for a quantity. `others` has bounds in SI units, and `default`."""
+    """Return a dataclass field for a quantity. `others` are its bounds (SI) and its `default`."""
     default = {key: others.pop(key) for key in ("default",) if key in others}
     unit = QUANTITIES[quantity].unit
     facts = {"quantity": quantity, "bounds": others, "meaning": meaning}

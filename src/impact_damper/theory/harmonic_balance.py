@@ -191,7 +191,7 @@ SIZES = ("band_width", "peak_frequency", "peak_amplitude", "quiet_amplitude", "r
 
 
 def _band(oscillator, damper):
-    """Return the variables of the suppression band. Interruptions below a step may be missed."""
+    """Return the variables of the suppression band, which is searched in steps of SEARCH_STEP."""
     data = dict.fromkeys(SIZES, np.nan) | {
         "band_status": flag("band_status", "no_peak"),
         "edge_frequency": [np.nan] * 2,
@@ -272,7 +272,7 @@ def _smallest(oscillator, damper, frequency):
 
 
 def analytical_table(oscillator, dampers, frequency):
-    """Return the smallest stable |a| by (7) over the clearance, and the clearance with a = 0."""
+    """Return the smallest stable |a| by (7) for each damper, and the clearance at which a = 0."""
     found = [_smallest(oscillator, each, frequency) for each in dampers]
     signed, status = np.array([size for size, _ in found]), [name for _, name in found]
     best = np.nan
