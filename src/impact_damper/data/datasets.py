@@ -39,7 +39,7 @@ def variable(name, data, dims=None) -> xr.Variable:
 
 
 def shown_variable(name, values):
-    """Return a registered variable. Its `values` are in a unit for machines already, such as mm."""
+    """Return a registered variable for a machine. `values` are in the unit for it, such as mm."""
     found = variable(name, values)
     found.attrs["units"] = QUANTITIES[VARIABLES[name].kind].label
     return found
@@ -234,7 +234,7 @@ def save(data, path) -> None:
 
 
 def load(path) -> xr.Dataset:
-    """Read a dataset from a file of `save`. Raise BrokenFileError if the file is another."""
+    """Read a dataset. Raise BrokenFileError if a file is damaged, or not as `save` wrote it."""
     check_length(path)
     try:
         data = xr.load_dataset(path, engine="netcdf4")

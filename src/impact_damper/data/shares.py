@@ -31,7 +31,7 @@ def wilson(successes, total):
 
 
 def bounding_rank(share, total, doubt=DOUBT) -> int:
-    """Return k. At least the given share of all values is below the k-th largest random sample.
+    """Return k. The k-th largest random sample is an upper bound for a share of all values.
 
     There are `total` samples. The bound has the confidence 1 - doubt for any distribution (S. S.
     Wilks, Ann. Math. Stat. 12, 1941). With too few samples k is 0.

@@ -80,7 +80,7 @@ def check_number(
     """Return `value` as a float, or raise an error if it is not allowed.
 
     Raise TypeError for a value that is no real number, such as True. Raise ValueError if the value
-    is not finite, or is out of bounds. The message shows `given` in place of the value, if any.
+    is not finite, or is out of bounds. If `given` is not empty, the message shows it as the value.
     """
     value = unlabelled(name, value)
     if isinstance(value, bool) or not isinstance(value, numbers.Real):

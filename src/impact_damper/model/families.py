@@ -9,8 +9,8 @@ from impact_damper.model.bounds import FREQUENCY_RANGE, nearest, shown
 from impact_damper.model.packed import FORCE, UNBALANCE, pack
 from impact_damper.model.parameters import Damper, Oscillator
 
-# PARAMETERS: the parameters that can vary along a branch, and the dataclass that has each of them.
-# The coordinate along a branch is the parameter if LINEAR has its name, otherwise its logarithm.
+# PARAMETERS that can vary along a branch, each with its dataclass. The frequency has none. The
+# coordinate along a branch is the parameter if LINEAR has its name, otherwise its logarithm.
 PARAMETERS = {"frequency": None}
 PARAMETERS |= dict.fromkeys(("damping", "cubic", "force", "unbalance"), Oscillator)
 PARAMETERS |= dict.fromkeys(("mass_ratio", "clearance", "restitution", "contact_stiffness"), Damper)

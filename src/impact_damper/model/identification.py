@@ -157,7 +157,7 @@ def _fit(residuals, guess, scale):
 
 
 def _free(time, parameters):
-    """Return the decaying motion of a mass of 1 kg for each column of parameters, in columns."""
+    """Return the decay of a 1 kg mass, shape (times, columns), for each column of parameters."""
     import numpy as np
     from scipy.integrate import solve_ivp
 

@@ -225,7 +225,7 @@ def parameters_in(part) -> list:
     return [each for each in fields(part) if each.type in (int, float)]
 
 
-# Nonlinear coefficients of the spring by name, and the power of Z1 in the term of each.
+# The spring's nonlinear coefficients: each name, and the power of Z1 that it multiplies.
 NONLINEAR = {
     each.name: each.metadata["power"]
     for each in parameters_in(Oscillator)

@@ -164,7 +164,7 @@ def convert(part) -> None:
 
 
 class Scales(NamedTuple):
-    """Scales of a machine in SI units: length x0, time 1/w0 and mass m1. The default is 1.
+    """Scales of a machine in SI units: length x0, time 1/w0 and mass m1.
 
     If `si` is true, users give values in SI units, and messages and results are in SI units.
     """

@@ -232,7 +232,7 @@ def _look(oscillator, damper, frequency):
 
 
 def _edge(inside, peak, limit):
-    """Search from W = peak to W = limit * peak. Return the edge of the band, or NaN."""
+    """Search for the edge of the band from W = peak to W = limit * peak. Return NaN if none."""
     step = np.sign(limit - 1) * SEARCH_STEP * peak
     inner = peak
     for outer in np.arange(peak + step, limit * peak, step):

@@ -1,4 +1,4 @@
-"""All real roots of a smooth function. Its signs at neighbouring extrema show the roots between.
+"""Find all real roots of a smooth function from its signs at neighbouring extrema.
 
 An extremum at which the function is 0, within rounding errors, is a double root.
 """
