@@ -18,10 +18,10 @@ from impact_damper.design.task import labelled
 from impact_damper.model.machine import TunedAbsorber
 from impact_damper.theory.roots import polynomial_roots
 
-# An absorber is tuned at POINTS frequencies near the resonance. A given band adds POINTS more.
+# POINTS: least number of frequencies for tuning an absorber, near the resonance or over a band.
 # REACH: largest distance of a frequency from the resonance, in widths of the resonance peak.
 POINTS, REACH = 1001, 8.0
-# Bounds of logarithms. TUNINGS: absorber frequency/machine frequency. DAMPINGS: damping ratio.
+# Bounds of the logarithms of absorber frequency/machine frequency, and of the damping ratio.
 TUNINGS, DAMPINGS, TOLERANCE, SEED = (-1.5, 1.0), (-7.0, 0.7), 1e-7, 1995
 COMPETITORS = ("bare", "tuned", "own")
 # Factors by which the machine's excitation is multiplied, from 1/4 to 4.

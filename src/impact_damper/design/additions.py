@@ -67,7 +67,7 @@ def other_masses(task, decision, progress=None) -> xr.Dataset:
 
 
 def _force(task, gap, frequency):
-    """Return the contact force (N) in the largest motion at a gap (mm), or NaN if it escapes."""
+    """Return the contact force (N) in the largest motion at a gap (mm), NaN after an escape."""
     cell = Cell(1e-3 * gap, frequency)
     motions = run(task, [cell], task.effort.starts, ("masses",))
     k, p = int(np.argmax(motions.peaks[0])), task.packed(*cell)

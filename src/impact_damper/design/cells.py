@@ -27,7 +27,7 @@ STREAMS = "search compared confirmed orbit forces masses repeated shocks searche
 # A thread draws the starts of DRAWN cells at a time, and runs FOLLOWED motions at a time.
 # At most TOGETHER regimes are run before the bounds of all cells are compared again.
 DRAWN, FOLLOWED, TOGETHER = 4, 64, 8
-# In a regime each record is at most this factor above the next smaller record.
+# In a regime each record is at most this factor x the next smaller record.
 APART = 1.3
 # A peak is the largest displacement of a motion in BLOCK cycles. `return_level` extrapolates the
 # TAIL largest peaks of a regime to the displacement that is exceeded once in HORIZON cycles.
@@ -35,7 +35,7 @@ BLOCK, TAIL, HORIZON = 50, 50, 100_000
 # Numbers of cycles, summed over the motions of a regime. POOLED: least number for extrapolation.
 # MOST_POOLED: number after which the regime is not run further.
 POOLED, MOST_POOLED = 25_000, 200_000
-# A record is raised by this fraction for each doubling of the cycles that is missing to POOLED.
+# After fewer than POOLED cycles a record is raised by this fraction for each missing doubling.
 MISSING = 0.03
 # A run is divided into QUARTERS parts. A regime counts as a torus if the largest displacements in
 # these parts differ by at most the fraction STEADY of the record (ROUGH when gaps are compared).
@@ -154,7 +154,7 @@ class Motions:
         return found
 
     def grows(self, k) -> bool:
-        """Return whether a regime of cell k fails the test in `measured` at the end of its run."""
+        """Return whether the displacement of a regime still grows after MOST_POOLED cycles."""
         results = [self.measured(k, regime) for regime in self.regimes(k)]
         return any(known and not tested for _, known, tested in results)
 

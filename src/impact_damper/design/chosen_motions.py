@@ -1,4 +1,4 @@
-"""The largest motion at each frequency with the chosen gap: impacts, forces, losses."""
+"""Largest motion at each frequency with the chosen gap, and its costs: impacts, forces, losses."""
 
 from dataclasses import replace
 

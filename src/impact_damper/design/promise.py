@@ -11,9 +11,9 @@ from impact_damper.design.task import VARIED
 
 # Largest number of corners. In a corner each value is at one end of its tolerance.
 CORNERS = 8
-# A set of factors has a bound at each of its frequencies. The peak of the set is the largest bound.
+# A set of factors multiplies nominal values. The peak of a set is its largest bound over frequency.
 # Up to SPLITS rounds add frequencies beside peaks that are at least NEAR x the largest peak.
-# A finite peak is known if the last round raised it by at most the fraction PEAK, and if a parabola
+# A finite peak is known if the last round raised it at most by the fraction PEAK, and if a parabola
 # through the peak and its two neighbours is higher than the peak by at most this fraction.
 NEAR, PEAK, SPLITS = 0.9, 0.01, 4
 # Sets other than the nominal set are first run at half of the frequencies, but at least FEWEST.
@@ -39,7 +39,7 @@ class Promise:
     peak_known : bool
         Whether the largest peak, and peaks of nearly the same height, are known (see PEAK).
     grows : bool
-        Whether the displacement in the worst cell still grew when its run ended (`Motions.grows`).
+        Whether a displacement in the worst cell still grows after many cycles (`Motions.grows`).
     """
 
     def __init__(self, task, gap, sets, stream, count=None, frequencies=None, progress=None):

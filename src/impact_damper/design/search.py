@@ -1,7 +1,7 @@
 """The search for the gap: a curve of displacements over the gap, finer at small displacements.
 
-First, few starts and few frequencies are used. Later runs near the best gaps also vary other
-values. The value of a nominal gap is the largest displacement on the curve within its tolerance.
+The first runs use few starts and frequencies. Later runs near the best gaps vary more than the gap.
+The value of a nominal gap is the largest displacement at all gaps within its tolerance.
 """
 
 from typing import NamedTuple
@@ -18,7 +18,7 @@ GAPS, FREQUENCIES, STARTS = 80, 5, 10
 # Later search near the best gaps: at most ROUNDS rounds, CLOSE_STARTS starts in each cell,
 # frequencies `Task.few(CLOSE_FREQUENCIES)` and the worst frequencies of earlier rounds.
 CLOSE_FREQUENCIES, CLOSE_STARTS, ROUNDS = 11, 24, 5
-# A cell is run again if its displacement exceeds DOUBTED x the usual one at its gap (`_ranks`).
+# A cell is run again if its displacement exceeds DOUBTED x the usual displacement (see `_ranks`).
 DOUBTED = 1.1
 # Two neighbouring gaps have a jump between them if the ratio of their displacements exceeds JUMP.
 # The interval between them is split if log(gap ratio) exceeds SMOOTH, or FINE with a jump.
@@ -53,7 +53,7 @@ class Curve:
         self.sets = [NOMINAL]  # sets of factors with the largest displacements near the best gaps
 
     def put(self, gaps, sizes, worst, *, close=True, replace=False) -> None:
-        """Add displacements. At a known gap keep the larger one, with `replace` the new one."""
+        """Add displacements. At a gap in the curve keep the larger, or with `replace` the new."""
         for gap, size, frequency in zip(gaps, np.minimum(sizes, HUGE), worst, strict=True):
             k = int(np.searchsorted(self.gaps, gap * (1 - 1e-9)))
             if k < len(self.gaps) and self.gaps[k] <= gap * (1 + 1e-9):
@@ -207,7 +207,7 @@ def _ranks(task, starts):
 
 
 def _exceeded_by(task, motions, ranks):
-    """Return the displacements (mm) that `ranks` motions exceed, shape (ranks, cells)."""
+    """Return the displacements (mm) that ranks[i] motions exceed, for each i and each cell."""
     count = len(motions.peaks)
     sizes = np.array([np.sort(motions.numbers(k, rough=True)[0]) for k in range(count)])
     return task.millimetres(np.stack([sizes[:, -1 - rank] for rank in ranks]))

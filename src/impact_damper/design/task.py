@@ -57,8 +57,8 @@ ESCAPING = 4.0
 # the greatest frequency of band and resonances.
 ABSORBED = 0.5, 2.0
 # Largest number of cycles in the first run of a motion. D is the machine's decay time in cycles.
-# Chaotic motion: PATIENT D, but at least LEAST_PATIENCE. Any other motion: LONG PATIENT D, but at
-# least LEAST_LIMIT. `Effort.settling` may set smaller numbers.
+# Chaotic motion: PATIENT x D, but at least LEAST_PATIENCE. Any other motion: LONG x PATIENT x D,
+# but at least LEAST_LIMIT. `Effort.settling` may set smaller numbers.
 PATIENT, LEAST_PATIENCE = 5, 100
 LONG, LEAST_LIMIT = 6, 600
 # Least number of cycles in which a motion is measured if it has not settled.
@@ -309,14 +309,14 @@ class Task:
 
     @cached_property
     def resonances(self) -> list[float]:
-        """Resonances in the band, Hz, without a loose mass and with the loose mass fixed."""
+        """Resonances in the band, Hz: without the loose mass, or with it fixed to the machine."""
         ratio = math.sqrt(1 + self.mass / self.machine.mass)
         found = [each for end in self.resonance for each in (end / ratio, end)]
         return [each for each in found if self.band[0] < each < self.band[1]]
 
     @cached_property
     def grid(self) -> np.ndarray:
-        """Evenly spaced frequencies over the band, Hz, the nearest ones replaced by resonances."""
+        """Evenly spaced frequencies over the band, Hz. The nearest ones are moved to resonances."""
         values = np.linspace(*self.band, self.effort.frequencies)
         for frequency in self.resonances:
             values[1 + np.argmin(np.abs(values[1:-1] - frequency))] = frequency

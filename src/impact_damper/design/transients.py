@@ -2,7 +2,7 @@
 
 A continuous sweep is replaced by a stepped sweep, because the integrator needs a fixed frequency.
 Each cycle of the stepped sweep has the mean frequency of this cycle in the continuous sweep. The
-phases of both sweeps differ by at most pi/4 x relative change of the frequency in a cycle.
+phases of both sweeps differ by at most pi/4 x the relative change of the frequency in a cycle.
 """
 
 import math
@@ -32,7 +32,7 @@ from impact_damper.motions.records import envelope
 
 EQUIPMENT = ("bare", "damped")
 TOLERANCE = 1e-10
-# SWEEP: the rate of a sweep in Hz/s is SWEEP (damping ratio x natural frequency in Hz)^2. At
+# SWEEP: the rate of a sweep in Hz/s is SWEEP x (damping ratio x natural frequency in Hz)^2. At
 # this rate the resonance peak of a linear machine is 6 % lower than in steady state.
 # MOST_SWEPT: largest number of cycles in a sweep. A longer sweep gets a higher rate instead.
 SWEEP, MOST_SWEPT = 4.0, 6000

@@ -93,7 +93,7 @@ def _fill(axes, data, values, **look):
 
 
 def _name(axes, data):
-    """Label the axes. Put frequency and phase in the title, and a dimensionless damper too."""
+    """Label the axes. The title has frequency, phase and, if dimensionless, the damper."""
     frequency = data["frequency"]
     if frequency.attrs["units"] == "1":
         names = ("mass_ratio", "clearance") if has_damper(data) else ()

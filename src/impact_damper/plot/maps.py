@@ -40,7 +40,7 @@ def edges_of(centres):
 
 @style.context()
 def migration_map(data):
-    """Return a map of the share of releases that succeed, over frequency and gap."""
+    """Return the figure of the share of releases that succeed, over frequency and gap."""
     drawn = style.figure("single", 3.2)
     axes = drawn.subplots()
     frequencies, gaps = data["released_frequency"].values, data["released_gap"].values

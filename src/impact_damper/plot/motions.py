@@ -73,7 +73,7 @@ def _time_panel(axes, run):
 
 
 def _in_contact(run, wall):
-    """Return the mask of times in contact with a wall. A contact without end lasts to the last."""
+    """Return the mask of times in contact with a wall. A contact with the end NaN did not end."""
     chosen = run["contact_wall"].values == wall
     contacts = run[["contact_begin", "contact_end"]].isel(contact=chosen)
     begun = contacts["contact_begin"] <= run["time"]

@@ -87,7 +87,7 @@ def _kind(data):
 
 
 def _draw_orbits(axes, orbits, stable):
-    """Draw orbits. With a damper, draw unstable ones of period 1, and if `stable` stable ones."""
+    """Draw orbits. With a damper: stable ones only if `stable`, unstable ones only of period 1."""
     if not has_damper(orbits):
         draw_free_orbits(axes, orbits)
         return
@@ -171,7 +171,7 @@ def _branch_lines(motions, chosen):
 
 
 def _draw_unsettled(axes, motions, looks):
-    """Draw unsettled motions as points. Chaos that ended in a run looks like a transient."""
+    """Draw unsettled motions as points. Chaos that ended in a run is drawn as a transient."""
     for status, look in looks.items():
         outcome = "chaotic" if status == "chaotic_transient" else status
         chosen = motions["outcome"].values == flag("outcome", outcome)
@@ -198,7 +198,7 @@ def _draw_steady(axes, motions):
 
 
 def _label(axes, given):
-    """Label the axes. The first variable of SIZES that a dataset has names the vertical axis."""
+    """Label the axes. The vertical axis is for the first variable of SIZES in a dataset."""
     first = given[0]
     swept = "frequency" in first.coords
     axes.set_xlabel(style.axis_label(first["frequency"]) if swept else followed_label(first))

@@ -88,7 +88,7 @@ def _look(kind, rank):
 
 
 def _ranked_motions(data):
-    """Return (kind, rank, mask) of each motion. The motion with most starts has rank 0."""
+    """Return (kind, rank, mask) of each motion. In each kind rank 0 has the most starts."""
     found, ranks = {kind: [] for kind in LOOKS}, Counter()
     for each in families(data):
         if each.starts:
