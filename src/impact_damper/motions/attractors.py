@@ -140,8 +140,8 @@ def neighbourhood(p, state, periods):
 def _radius(coefficients, step, contraction):
     """Return the largest r(0) for which `contraction` r(P) < FACTOR r(0). P is the orbit's period.
 
-    r(t) obeys r' = a r^2 + b r^3, where a, b >= 0 are the rows of `coefficients`. Each step gives
-    an upper bound on r, because it uses the slope r' at a larger value, `ahead`.
+    r(t) is a bound on the distance from the orbit, with r' = a r^2 + b r^3 and `coefficients`
+    a, b >= 0. A step overestimates r, because it uses the slope at a larger value, `ahead`.
     """
     low, high = 0.0, 10.0
     for _ in range(HALVINGS):
@@ -256,6 +256,6 @@ def signed_distance(inside):
     """Return each cell's distance from the boundary of a set, in cell widths, negative outside."""
     if inside.all() or not inside.any():
         return np.where(inside, np.inf, -np.inf)
-    # The boundary is half a cell width nearer than the nearest cell on the other side.
+    # The boundary is half a cell width nearer than the centre of the nearest cell beyond it.
     inward, outward = distance_transform_edt(inside), distance_transform_edt(~inside)
     return np.where(inside, inward - 0.5, 0.5 - outward)

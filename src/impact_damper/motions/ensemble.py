@@ -26,7 +26,7 @@ from impact_damper.motions.watch import RING, SEEN, begin_watch, watch
 
 # Number of states that are labelled in one call of a kernel. Ctrl-C waits until the call ends.
 LABELLED = 4096
-# Labels of states that lead to no known orbit. GONE: the motion escapes. UNKNOWN: unresolved.
+# Labels of states that lead to no known orbit. GONE: the motion escapes. UNKNOWN: other.
 GONE, UNKNOWN = -2, -1
 
 

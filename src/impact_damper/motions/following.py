@@ -21,7 +21,7 @@ RESOLUTION = 1e-8
 
 
 class Followed(NamedTuple):
-    """The last two values and their orbits, the last status, and whether the target is reached."""
+    """The last two parameter values, their orbits, last status, whether the target is reached."""
 
     values: tuple[float, float]
     orbits: tuple

@@ -55,7 +55,7 @@ def run(p, y, ahead, strobe, tolerance, limit, stop=NEVER):
 
 @kernel
 def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, path, out):
-    """Do the part of `run` from strobe `first` to before `last`; return new `side` and `near`."""
+    """Do the strobes `first`, ..., `last` - 1 of `run`; return the new values of `side`, `near`."""
     work = workspace()
     none = np.empty((0, 4))
     for k in range(first, last):

@@ -22,8 +22,8 @@ MARGIN, SAMPLES = 10, 40
 # Two free motions are equal if their max |Z1| differ by less than this number.
 ALIKE = 1e-6
 # A log entry: the damper is switched on, then off. Times are forcing cycles from the first strobe.
-# released_period, released_displacement (max |Z1|): of the motion before switching off.
-# destination, end_time: kind and end of the free motion after switching off.
+# released_period, released_displacement: period and max |Z1| of the motion before switching off.
+# destination, end_time: kind and end of the motion after switching off.
 SWITCHING = np.dtype(
     [(name, "f8") for name in ("on_time", "off_time", "end_time")]
     + [("released_period", "i2"), ("released_displacement", "f8"), ("destination", "i1")]
@@ -253,7 +253,7 @@ def course(case, path, log, tolerance):
 
 
 def switching_data(logs, case):
-    """Return dataset variables that describe the switchings, as a dict of arrays like `logs`."""
+    """Return dataset variables that describe the switchings in `logs`, as a dict."""
     period = 2 * np.pi / case.on[FREQUENCY]
     kind = kinds(logs["released_period"], logs["released_displacement"], case.known)
     absent = logs["destination"] == FREE_MOTION["none"]

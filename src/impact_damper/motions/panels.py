@@ -82,7 +82,7 @@ def contact_forces(p, state, span, course, tolerance):
 def _divided(p, state, span, course, tolerance, flights):
     """Return the panels in the contacts of a motion; if `flights`, also the panels in flights."""
     (begin, end), (states, log) = span, course
-    # Edges: `begin`, beginning and end of each contact, `end`. Intervals 1, 3, ... are contacts.
+    # Edges: `begin`, both ends of each contact, `end`. So flights and contacts alternate.
     ends = np.where(np.isfinite(log[:, 2]), log[:, 2], end)
     edges = np.concatenate([[begin], np.column_stack([log[:, 1], ends]).ravel(), [end]])
     walls = np.zeros(len(edges) - 1)

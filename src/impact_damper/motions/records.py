@@ -58,8 +58,8 @@ def survey(p, states, phases, times, tolerance, log, sums):
     """Run a motion in m segments; record contacts, the largest |Z1| and first harmonics.
 
     `states` (m, 4) holds the first state of each segment; the segment's last state replaces it.
-    `phases` and `times` (m + 1,) are W T and T at the ends of the segments, which follow each other
-    in time. `log` (n, 5) receives the first n contacts, in rows as in `traces.trace`. sums[0]
+    `phases` and `times` (m + 1,) are W T and T at the m + 1 ends of the segments, which follow each
+    other in time. `log` (n, 5) receives the first n contacts, in rows as in `traces.trace`. sums[0]
     receives real and imaginary part of the first harmonic of Z1, the mean of 2 exp(-i W T) Z1.
     sums[1] receives the first harmonic of Z2. Return the number of contacts and the largest |Z1|.
     """
@@ -143,7 +143,7 @@ def measure_orbit(p, periods, tolerance, out):
 
 @kernel
 def measure_orbits(parameters, tolerance, out, stop):
-    """Measure the orbits in `out`. Records without a `period` receive NaN, or infinity as |Z1|.
+    """Measure the orbits in `out`. Records without a `period` receive NaN, and infinite |Z1|.
 
     An orbit is integrated over its period, from its state at the strobe. If the period is odd, the
     asymmetry is the distance between the mirrored first state and the state half a period later;
@@ -226,9 +226,9 @@ def envelope(parameters, lengths, y, tolerance):
     """Run a motion through n windows of time, with a row of packed parameters for each window.
 
     Return two arrays (n,): the largest |Z1| in each window, and the number of contacts that begin.
-    If the motion escapes in a window, they are infinite and NaN there, and both NaN in later
-    windows. The last state replaces y. Each window begins at the strobe, where the forcing is 0, so
-    W can change there. If there is forcing, each entry of `lengths` must be one forcing cycle.
+    After an escape both are NaN, but in the window of the escape |Z1| is infinite. The last state
+    replaces y. Each window begins at the strobe. The forcing is 0 there, so W can change between
+    windows. If there is forcing, each entry of `lengths` must be one forcing cycle.
     """
     largest, contacts = np.full((2, len(lengths)), np.nan)
     side = side_of(next(iter(parameters)), y)

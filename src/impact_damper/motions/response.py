@@ -153,7 +153,7 @@ def find_lives(parameters, outcomes, states, runs, periods, seed, settling, **ru
 def _lives(parameters, states, periods, settling, **running):
     """Return the life of each transient in forcing cycles, or `periods` + 1 if it does not end.
 
-    A run ends at the distance NEAR from an orbit, but a life at the larger distance CAPTURE.
+    A run ends at the distance NEAR from an orbit. A life ends earlier, at the distance CAPTURE.
     """
     records, stop = np.zeros(len(states), MOTION), np.zeros(1, bool)
 

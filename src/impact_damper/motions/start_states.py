@@ -33,17 +33,17 @@ PHASES, SAMPLES, MOST_STATES = 6, 256, 5
 # SMALLEST: size of the smallest start divided by the size of the largest start.
 SPREAD, SMALLEST = 3.0, 0.01
 # Placed starts. PLACES: Z2 divided by the clearance. VELOCITIES: Z2' divided by `_crossing_speed`.
-# On free motions the divisor of Z2' is the largest |Z1'| of free motions, if that is larger.
+# On free motions Z2' is divided by the largest |Z1'| of free motions if that is larger.
 PLACES, VELOCITIES = (-2 / 3, 0.0, 2 / 3), (-1.0, 0.0, 1.0)
 # Random states of the loose mass for `sweep.stable_orbits`. LOOSE_STATES: number of these states.
-# LOOSE_SPEED: largest speed |Z1' - Z2'|, divided by the same speed as Z2' on free motions.
+# LOOSE_SPEED: largest |Z1' - Z2'| / larger of `_crossing_speed` and |Z1'| of free motions.
 LOOSE_STATES, LOOSE_SPEED = 240, 2.0
-# With a softening spring, |Z1| and |Z1'| of random starts are below WITHIN x values of `barrier`.
+# With a softening spring: bound on |Z1| and |Z1'| of random starts, divided by `barrier`.
 WITHIN = 0.7
 NO_STARTS, NO_LOOSE = np.empty((0, 4)), np.empty((0, 2))
 # Ramps. STEP: relative change of the parameter in a step. PERIODS: forcing cycles in a step.
 # RAISED: first force divided by last force. BELOW: a ramp upward to W begins at BELOW times W/2, or
-# times the lowest fold if that is lower; a ramp downward begins above 2 W and the highest fold.
+# BELOW times the lowest fold if that is lower. A ramp downward begins above 2 W and all folds.
 STEP, PERIODS, BELOW, RAISED = 0.0125, 20, 0.9, 5.0
 
 
@@ -229,7 +229,7 @@ def _ramp(target, indices, factor, tolerance):
 
 
 def barrier(oscillator):
-    """Return |Z1| where a softening spring's force becomes 0, and the speed to get there from 0."""
+    """Return |Z1| beyond which a softening spring pushes outward, and the speed to get there."""
     stiffness, softening = oscillator.linear_frequency**2, -oscillator.cubic
     return math.sqrt(stiffness / softening), stiffness / math.sqrt(2 * softening)
 

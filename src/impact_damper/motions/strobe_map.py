@@ -17,7 +17,7 @@ from impact_damper.model.packed import CONTACT_STIFFNESS, FREQUENCY, INVERSE_MAS
 # Phase W T of the strobe.
 STROBE = math.pi / 2
 # Newton's method. ITERATIONS: largest number of corrections. It has converged if a correction is
-# below CONVERGED. It fails if the modulus of the determinant is below REGULAR.
+# below CONVERGED. It fails if the determinant of its linear system is below REGULAR.
 ITERATIONS, CONVERGED, REGULAR = 10, 1e-9, 1e-12
 # Largest local error of a step in the integration of orbits.
 POLISH_TOLERANCE = 1e-12
@@ -51,7 +51,7 @@ def speed_weight(p, side):
 
 @kernel
 def distance(a, b, weight):
-    """Return the largest component of |a - b|, after the Z2' component is scaled by `weight`."""
+    """Return the largest component of |a - b|, with the Z2' component multiplied by `weight`."""
     d = max(abs(a[0] - b[0]), abs(a[1] - b[1]))
     return max(d, max(abs(a[2] - b[2]), weight * abs(a[3] - b[3])))
 
@@ -78,7 +78,7 @@ def flow(p, state, tangents, begin, periods, half, tolerance):
 
 @inlined
 def period_map(p, y, periods, tolerance):
-    """Return the state z `periods` cycles after y, the matrix dz/dy, and the number of contacts."""
+    """Return the state z after y and `periods` cycles, the matrix dz/dy, and number of contacts."""
     half = np.bool_(False)  # for the literal False numba would compile `flow` again
     state, tangents, matrix = y.copy(), np.empty((4, 4)), np.empty((4, 4))
     for i in range(16):

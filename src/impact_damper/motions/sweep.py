@@ -1,9 +1,9 @@
 """Find the motions along a sweep of one parameter, by runs from start states and by following.
 
 At each value of the parameter Newton's method also finds stable orbits to which hardly any random
-start leads. Settled motions are followed to the next values, upward and downward. Motions that have
-not settled are not followed. At neighbouring values such motions belong to one branch if they have
-the same outcome and similar sizes.
+start leads. Settled motions are followed to the next values, upward and downward. Other motions are
+run from their last states at the next values. Two such motions at neighbouring values belong to one
+branch if they have the same outcome, the same period and similar sizes.
 """
 
 import math
@@ -29,7 +29,7 @@ SAME, ROUNDING, SIMILAR = 1e-6, 1e-11, 1.5
 # Outcomes with infinite or zero max |Z1|. All motions with one such outcome count as one motion.
 ALIKE = tuple(flag("outcome", name) for name in ("diverged", "escaped", "at_rest"))
 # Newton's method for further orbits. LONGEST: longest period in cycles. REACH: bound on the change
-# of a start, divided by the largest of the clearance and |Z1|, |Z1'| of known motions.
+# from start to orbit, divided by the largest of the clearance and |Z1|, |Z1'| of known motions.
 # SAME_ORBIT: two orbits are equal if their states differ by less than this number.
 LONGEST, REACH, SAME_ORBIT = 5, 1.0, 1e-6
 # Events at the end of a branch. At a bifurcation the modulus of the multiplier is above CRITICAL. A

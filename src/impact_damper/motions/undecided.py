@@ -21,7 +21,7 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE, one_period, polis
 from impact_damper.motions.watch import CONFIDENCE, LONGEST_PERIOD, NEAR, normalise
 
 # A run consists of blocks. FIRST: largest number of forcing cycles in the first block. BATCHES:
-# number of parts of a block, from whose means the standard error of a mean is computed.
+# number of parts of a block. The scatter of their means gives the standard error of the mean.
 FIRST, BATCHES = 1500, 30
 # In a block a small disturbance of a chaotic motion grows by more than exp(GROWN). When rounding
 # errors make a motion leave an unstable orbit, they grow by less, about 1e16 = exp(37).
@@ -37,7 +37,7 @@ TORUS = ["outcome", "lyapunov_exponent", "lyapunov_error"]
 TORUS += ["first_frequency", "second_frequency", "frequency_error"]
 # Rotation number. AGREEMENT: largest accepted error. FEWEST: smallest number of points needed.
 AGREEMENT, FEWEST = 1e-8, 100
-# Advances, in revolutions modulo 1, have a mean only if none of them lies in a range this wide.
+# Advances modulo 1 can be averaged only if some range of this width contains none of them.
 INTERVAL = 0.02
 # Points in their order along a curve. TURN: largest change of the angle from point to point, in
 # revolutions. WANDERING: largest sum of the moduli of these changes.
@@ -193,7 +193,7 @@ def _quasi_periodic(p, record, states, mean, error):
 
 
 def birkhoff_average(values):
-    """Return a mean with the weights exp(-1/(t (1 - t))), where t runs from 0 to 1 in order."""
+    """Return a weighted mean. Its weights are exp(-1/(t (1 - t))), where t goes from 0 to 1."""
     t = np.arange(1, len(values) + 1) / (len(values) + 1)
     weights = np.exp(-1 / (t * (1 - t)))
     return np.sum(weights * values) / np.sum(weights)

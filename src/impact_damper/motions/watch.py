@@ -44,7 +44,7 @@ REST = 1e-9
 # Data of one motion while it runs. untouched: forcing cycles since the last contact. near, early:
 # distances at which Newton's method is tried next. periods: number of cycles with a tangent. batch:
 # logarithm of the tangent's growth in this batch. mean: mean of `batch` over complete batches.
-# squares: sum of squared deviations from `mean`. recent: values of the last complete batches.
+# squares: sum of squared deviations from `mean`. recent: `batch` of the last complete batches.
 SEEN = np.dtype(
     [(name, "i8") for name in ("index", "strobes", "untouched", "periods")]
     + [(name, "f8") for name in ("near", "early", "energy", "batch", "mean", "squares")]
