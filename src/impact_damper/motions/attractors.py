@@ -191,8 +191,8 @@ class ReleaseSet(NamedTuple):
     """The states of the free oscillator at one frequency that lead to the goal of migration.
 
     The goal is the smallest free motion of period 1, the attractor with the index `goal`. `depth`
-    holds each grid cell's distance from the edge of the set, negative outside; lengths are in the
-    plane (Z1, Z1'/W). Its axes are phase, Z1', Z1. `half` is the grid's half width in Z1 and Z1'.
+    holds each grid cell's distance, in the plane (Z1, Z1'/W), from the edge of the set, negative
+    outside. The array has the axes phase, Z1', Z1. `half` is the grid's half width in Z1 and Z1'.
     """
 
     p: np.ndarray

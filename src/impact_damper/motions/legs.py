@@ -85,7 +85,7 @@ def leg(before, after, y, wait, place, strobe, tolerance, limit, stop=NEVER):
 
 
 def wait_and_switch(before, after, y, wait, place, tolerance):
-    """Run from a strobe for `wait` forcing cycles, then switch the damper; return the time T.
+    """Run from a strobe for `wait` forcing cycles, then switch the damper; return that time T.
 
     `before` and `after` are the packed parameters before and after the switching. Switching the
     damper on sets Z2 to `place` times the clearance, and Z2' to 0.

@@ -31,7 +31,7 @@ WEIGHTS = [0.0 if k % 2 else 2 / (1 - k**2) for k in range(len(NODES))] @ COEFFI
 # of a polynomial into the coefficients of its derivative.
 POINTS, NEWTON = np.linspace(-1, 1, 33), 5
 SLOPE = np.vstack([chebyshev.chebder(np.eye(len(NODES))), np.zeros(len(NODES))])
-# A panel is so short that the phase of its fastest oscillation advances by at most this, in radian.
+# Largest phase, in radian, by which the fastest oscillation of a motion advances in one panel.
 LONGEST_ANGLE = 2.0
 # Largest number of contacts that are divided into panels at once, to save memory.
 PIECE = 100_000

@@ -20,7 +20,7 @@ from impact_damper.model.packed import FREQUENCY
 from impact_damper.motions.strobe_map import STROBE, distance, speed_weight, strobe_time
 from impact_damper.motions.traces import record_beginning
 
-# A harmonic has no phase, only a rounding error, if it is below this fraction of another harmonic.
+# A harmonic below this fraction of another harmonic is a rounding error, and has no phase.
 PHASELESS = 1e-9
 # A motion is symmetric if its asymmetry is below this number.
 SYMMETRIC = 1e-6

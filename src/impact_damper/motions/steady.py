@@ -140,7 +140,7 @@ def settle_with(
 
     # This call compiles the kernels in the main thread, where Ctrl-C can interrupt the compilation.
     work(slice(0, 0))
-    # Large slices are faster: only near the end of a slice a kernel runs few motions side by side.
+    # Large slices are faster, because near the end of a slice a kernel runs few motions at once.
     # But each worker gets several slices, so that all workers end at about the same time.
     share = len(states) // CHUNK if workers == 1 else len(states) // (SLICES * workers * CHUNK)
     size = CHUNK * min(max(share, 1), MOST_CHUNKS)
