@@ -1,8 +1,8 @@
 """Basins of attraction in a plane of states, and the robustness of attractors against shocks.
 
-Without a damper the boundaries of basins are stable manifolds of unstable orbits. A manifold is
-computed backwards in time, because nearby curves then approach the manifold and errors decrease. It
-is followed where |Z1| and |Z1'| are below `reach`, and stored where both are below `window`.
+Without a damper the boundaries of basins are stable manifolds of unstable orbits: curves of states
+from which motions tend to the orbit. They are computed backwards in time, because errors then
+decrease. `reach` bounds |Z1| and |Z1'| in the computation, `window` in the stored part.
 The names *convergence time*, *finite-time basin stability* and *minimal critical shock* come from
 Attractors.jl, version 2 (StabilityQuantifiersAccumulator).
 """
@@ -35,23 +35,23 @@ from impact_damper.motions.start_states import free_motions
 from impact_damper.motions.strobe_map import STROBE
 from impact_damper.orbits.shooting import find_orbit
 
-# Default half widths of the plane, divided by the largest |Z1| and |Z1'| without a damper.
+# Default half widths of the plane, divided by the largest |Z1| or the largest |Z1'| without damper.
 WIDTH = 1.5
-# Number of states on each axis of the grid of first guesses for unstable orbits.
+# Unstable orbits are searched for from a grid of NEWTON x NEWTON states.
 NEWTON = 16
-# A search for further attractors uses TRIED to 2 TRIED unresolved states, or all if fewer exist.
+# At most 2 TRIED of the states that reach no known attractor are used to search for further ones.
 TRIED = 64
-# Default places Z2/d0 of the loose mass. Each state (Z1, Z1') of the plane is run with each place.
+# Default positions Z2/d0 of the loose mass. Each state (Z1, Z1') is run once for each position.
 PLACES = (-0.8, -0.4, 0.0, 0.4, 0.8)
 CELLS_RANGE = {"least": 2, "most": 10**4}
 
 
 class Labelled(NamedTuple):
-    """Labels of the n states of a plane, each run with m states of the loose mass.
+    """Attractors to which the n states of a plane lead, each run with m states of the loose mass.
 
-    labels: Index of an attractor in `records`, or a flag of `basin_label`; shape (m, n).
-    periods: Forcing cycles until the label is known, shape (m, n).
-    label: Function that returns the labels and periods of other states, shape (k, 4).
+    labels: Index of the attractor in `records`, or a negative flag without one; shape (m, n).
+    periods: Number of forcing cycles after which the label is known, shape (m, n).
+    label: Function that returns the labels and periods of k other states, shape (k, 4).
     """
 
     labels: np.ndarray
@@ -98,10 +98,10 @@ def basins(
         Phase W T of the forcing at which the motions begin, radian.
     loose : sequence of float, optional
         Z2 and Z2' of all states, only with a damper. By default each state is run five times, with
-        the loose mass at relative rest at five places in the gap. In this case the result includes
-        the share of places that lead to each attractor.
+        the loose mass at relative rest at five places in the gap. The result then also holds, for
+        each state, the share of places that lead to each attractor.
     shock : float, optional
-        Impulse on the primary mass: in N s for a machine, otherwise divided by the primary mass. If
+        Impulse on the primary mass: in N s for a machine, otherwise a dimensionless jump of Z1'. If
         a shock is given, the result includes the time in which motions return to their attractor.
     within : int
         Time limit of the finite-time basin stability, in forcing cycles.
@@ -114,18 +114,18 @@ def basins(
     Returns
     -------
     xarray.Dataset
-        For each state of the grid: the number of the attractor, or a negative flag that says why
+        For each state of the grid: the index of the attractor, or a negative flag that says why
         there is no attractor; and the convergence time in forcing cycles, -1 without an attractor.
         For each attractor: the period, the largest displacement, Z1 and Z1' at `phase`, and
 
         - the share of states that lead to the attractor, and these states' median convergence time;
-        - the longest convergence time after `shock`, infinite if a motion does not return;
-        - the finite-time basin stability: the share that leads to the attractor in `within` cycles;
+        - the longest convergence time after a shock of either sign, infinite without return;
+        - the finite-time basin stability: the share of states that lead to it in `within` cycles;
         - the minimal critical shock: the smallest impulse at `phase` after which the motion does
           not return. Impulses are tried up to the largest |Z1'| of the plane.
 
-        Without a damper also: unstable orbits with the periods of the attractors, and the stable
-        manifolds of these orbits, which are the boundaries of basins.
+        Without a damper also: unstable orbits whose period is the period of an attractor, and their
+        stable manifolds, which are the boundaries of basins.
 
     Raises
     ------
@@ -190,7 +190,7 @@ def _sides(scales, sizes, displacement, velocity):
 
 
 def _free(p, plane, window, reach, phase, cells, settling, running):
-    """Label the states of a plane without a damper; return dataset variables and a `Labelled`."""
+    """Return dataset variables and a `Labelled` for the states of a plane without a damper."""
     attractors = free_attractors(p, reach / 2, settling)
     limits = settling.tolerance, settling.limit
     labels, periods = label_states(p, plane, phase, attractors, *limits, **running)
@@ -217,7 +217,7 @@ def _free(p, plane, window, reach, phase, cells, settling, running):
 
 
 def boundary_data(p, attractors, window, reach, phase, cells, settling):
-    """Return the dataset variables of unstable orbits and of the orbits' stable manifolds."""
+    """Return the dataset variables for unstable orbits and for the boundaries of basins."""
     # Unstable orbits lie closer together near the origin, so the grid is finer there.
     even = np.linspace(-1, 1, NEWTON)
     grid = [half * even * np.abs(even) for half in reach / 2]
@@ -245,7 +245,7 @@ def boundary_data(p, attractors, window, reach, phase, cells, settling):
 
 
 def _damped(p, plane, damper, phase, cells, loose, settling, running):
-    """Label the states of a plane with a damper; return dataset variables and a `Labelled`."""
+    """Return dataset variables and a `Labelled` for the states of a plane with a damper."""
     if loose is None:
         places = [(place * damper.clearance, 0.0) for place in PLACES]
     else:
@@ -268,7 +268,7 @@ def _damped(p, plane, damper, phase, cells, loose, settling, running):
 
 
 def _attractor_data(p, found, phase):
-    """Return the dataset variables of the attractors in a `Labelled`."""
+    """Return the dataset variables that describe each attractor."""
     records = found.records
     shares = [np.mean(found.labels == index) for index in range(len(records))]
     points = np.full((len(records), max(records["period"], default=1), 2), np.nan)
@@ -284,17 +284,17 @@ def _attractor_data(p, found, phase):
     }
 
 
-# Dimensionless distance from a saddle (an unstable orbit) at which its manifold begins.
+# A stable manifold is computed from this distance from its saddle (an unstable orbit) outwards.
 NEAR = 1e-5
-# Limits for one side of a manifold. MOST_PERIODS: forcing cycles. MOST_POINTS: points in `window`.
-# MOST_IN_ALL: points within `reach`. MOST_HALVINGS: halvings of an interval in one forcing cycle.
+# Limits on each side of a saddle: MOST_PERIODS forcing cycles, MOST_POINTS points in `window`, and
+# MOST_IN_ALL points within `reach`. In each cycle, points are inserted at most MOST_HALVINGS times.
 MOST_PERIODS, MOST_POINTS, MOST_IN_ALL, MOST_HALVINGS = 60, 40_000, 100_000, 12
 FIRST_POINTS = 33
 # Largest distance between neighbouring points of a manifold outside `window`, divided by `reach`.
 OUTSIDE = 0.01
-# Largest difference between the states of equal orbits.
+# Orbits are equal if their states differ by less than SAME.
 SAME = 1e-6
-# Number of states in one call of the kernel. Ctrl-C waits for the end of the call.
+# Number of states that one call of compiled code integrates. Ctrl-C waits for the end of a call.
 CHUNK = 4096
 
 
@@ -336,11 +336,11 @@ def run_backwards(p, states, phase, tolerance, reach):
 
 
 def stable_manifold(orbit, tolerance, window, spacing, reach):
-    """Return the list of pieces of a saddle's stable manifold, and whether the list is complete."""
+    """Return a saddle's stable manifold as a list of pieces, and whether it is complete."""
     values, vectors = np.linalg.eig(orbit.monodromy[:2, :2])
     k = int(np.argmin(np.abs(values)))
     direction = vectors[:, k].real / np.linalg.norm(vectors[:, k].real)
-    # If the multiplier is negative, a point returns to its side of the saddle after two periods.
+    # With a negative multiplier, motions change the side of the saddle in each period.
     growth = 1 / abs(values[k].real) ** (1 if values[k].real > 0 else 2)
     given = growth, tolerance, window, spacing, reach
     sides = [_grow(orbit, side * direction, *given) for side in (-1, 1)]
@@ -348,7 +348,7 @@ def stable_manifold(orbit, tolerance, window, spacing, reach):
 
 
 def _grow(orbit, direction, growth, tolerance, window, spacing, reach):
-    """Return the results of `stable_manifold` for the side of the saddle in `direction`."""
+    """Return the results of `stable_manifold` for one side of the saddle, along `direction`."""
 
     def earlier(states):
         return run_backwards(orbit.p, states, orbit.phase, tolerance, reach)
@@ -380,7 +380,7 @@ def _grow(orbit, direction, growth, tolerance, window, spacing, reach):
 
 
 def _wide(states, window, spacing, reach):
-    """Return the mask of the pairs of neighbouring states that are too far apart."""
+    """Return for each pair of neighbours in a list of states whether they are too far apart."""
     apart = np.abs(np.diff(states, axis=0))
     inside = np.all(np.abs(states) <= window + 2 * spacing, axis=1)
     near = np.all(np.abs(states) <= reach, axis=1)
@@ -390,13 +390,13 @@ def _wide(states, window, spacing, reach):
     return np.where(lost, inside, near & np.any(apart > allowed, axis=1))
 
 
-# Search for the smallest shock: number of parts into which each round divides its interval. The
-# next interval is the first part whose larger shock leads away from the attractor.
+# The smallest shock is found in four rounds, which divide an interval into so many parts. The next
+# round divides the first part at whose far end motions leave the attractor.
 SHOCKS = (256, 64, 64, 64)
 
 
 def robustness(p, found, phase, widest, shock, within) -> dict:
-    """Return the dataset variables of the robustness of attractors. A shock is a jump of Z1'."""
+    """Return the dataset variables that say which shocks (jumps of Z1') attractors withstand."""
     rows = []
     for index, record in enumerate(found.records):
         own, states, returned = found.labels == index, orbit_states(p, record, phase), np.nan
@@ -412,7 +412,7 @@ def robustness(p, found, phase, widest, shock, within) -> dict:
 
 
 def _after(found, index, states, shocks):
-    """Return for each shock whether it leads to another motion, and the cycles run to know this."""
+    """Return for each shock whether motions leave the attractor, and the number of cycles run."""
     pushed = np.repeat(states, len(shocks), axis=0)
     pushed[:, 1::2] += np.tile(shocks, len(states))[:, None]
     labels, periods = (each.reshape(len(states), -1) for each in found.label(pushed))
@@ -420,7 +420,7 @@ def _after(found, index, states, shocks):
 
 
 def _critical(found, index, states, most):
-    """Return the smallest |shock| from 0 to |most| that leads to another motion, or infinity."""
+    """Return the smallest |shock| up to |most| after which a motion does not return, or inf."""
     low, high = 0.0, most
     for parts in SHOCKS:
         shocks = np.linspace(low, high, parts + 1)

@@ -1,7 +1,4 @@
-"""Locate bifurcations (zeros of test functions) and changes of contact on a step of a branch.
-
-The place of an event is the distance along the step's first tangent or, in a grazing, the height.
-"""
+"""Locate the events on a step of a branch: bifurcations, and changes in the order of contacts."""
 
 from functools import partial
 from typing import NamedTuple
@@ -12,27 +9,27 @@ from scipy.optimize import brentq
 from impact_damper.model.packed import FREQUENCY
 from impact_damper.orbits.continuation import Point, point_at_distance
 
-# Largest tolerance of the place of a bifurcation, divided by the length of the step.
+# The place of a bifurcation is found to within FINE times the length of the step, or better.
 FINE = 1e-3
-# Tolerance of the place of a change of contact, divided by max(1, length of the step).
+# The place of a change of contact is found to within PLACE times max(1, length of the step).
 PLACE = 1e-12
-# A multiplier counts as complex if the modulus of its imaginary part exceeds COMPLEX.
+# A multiplier counts as complex if its imaginary part exceeds COMPLEX in modulus.
 COMPLEX = 1e-6
-# Orbits beside a bifurcation may be stable if no multiplier has a modulus above 1 + NEAR_CIRCLE.
+# An unstable orbit counts as nearly stable if all multipliers have moduli below 1 + NEAR_CIRCLE.
 NEAR_CIRCLE = 1e-3
-# Two contacts with one wall merge if the flight between them is below MERGED forcing cycles.
+# Two contacts with one wall are merging if the flight between them is below MERGED forcing cycles.
 MERGED = 1e-3
 # Largest number of changes of contact that are located on one step.
 MOST_CHANGES = 8
-# Indices i < j of all pairs of multipliers, for 2 and for 4 multipliers.
+# Index arrays that select all pairs of multipliers, for 2 and for 4 multipliers.
 PAIRS = {count: np.triu_indices(count, 1) for count in (2, 4)}
 
 
 class Event(NamedTuple):
-    """An event of a branch, with the walls touched (`Orbit.sequence`) before and after the event.
+    """A bifurcation, or a change of contact between the sequences of walls `before` and `after`.
 
-    Kind "grazing": a contact appears or vanishes in flight. Kind "merging": two contacts with one
-    wall become one contact, or one contact parts in two. Further kinds: the keys of TESTS.
+    The kind is a key of TESTS, "grazing" (a contact appears or vanishes in flight) or "merging"
+    (two contacts with one wall become one contact, or one contact parts in two).
     """
 
     kind: str
@@ -42,30 +39,29 @@ class Event(NamedTuple):
 
 
 def _reversal(point, symmetric):
-    """Return the `_product` of mu + 1 over all `cycle_multipliers` mu of the orbit, or 1.
+    """Return a number that is zero if one of the orbit's `cycle_multipliers` is -1.
 
-    At mu = -1 a symmetric orbit (`sign` -1) loses its symmetry, and any other orbit doubles its
-    period. If `symmetric`, return 1 for asymmetric orbits; otherwise return 1 for symmetric orbits.
+    There a symmetric orbit (`sign` -1) loses its symmetry, and any other orbit doubles its period.
+    `symmetric` says which of the two kinds of orbits is tested. For the other kind, return 1.
     """
     orbit = point.orbit
     return _product(orbit.cycle_multipliers + 1) if (orbit.sign < 0) == symmetric else 1.0
 
 
 def _pairs(point):
-    """Return the `_product` of mu_i mu_j - 1 over all pairs of multipliers."""
+    """Return a number that is zero if the product of two multipliers is 1."""
     values = point.orbit.multipliers[: point.orbit.active]
     first, second = PAIRS[len(values)]
     return _product(values[first] * values[second] - 1)
 
 
 def _product(values):
-    """Return the real part of the product of `values`; moduli above 1 are first reduced to 1."""
+    """Return the product of `values`, a real number, after reducing moduli above 1 to 1."""
     return float((values / np.maximum(1, np.abs(values))).prod().real)
 
 
 # For each kind of bifurcation: a function of a point that is zero at the bifurcation, and the
-# largest tolerance of the place. The tolerance is larger at a fold. Newton's method is nearly
-# singular at a fold, and the parameter changes only with the square of the distance from the fold.
+# tolerance of the place. A larger tolerance is enough at a fold, where the parameter is stationary.
 TESTS = {
     "fold": (lambda point: point.tangent[-1], 1e-7),
     "symmetry_breaking": (partial(_reversal, symmetric=True), 1e-11),
@@ -75,7 +71,11 @@ TESTS = {
 
 
 def bifurcations_between(point_at, start, end, first, last):
-    """Return pairs (place, event) of bifurcations between two points, and the number missed."""
+    """Return (place, event) for each bifurcation between two points, and how many were missed.
+
+    A place is a distance along the branch, or another coordinate. The points lie at the places
+    `first` and `last`, and `point_at` returns the point at a place.
+    """
     located, lost = [], 0
     for kind, (test, precision) in TESTS.items():
         if test(start) * test(end) >= 0:
@@ -92,7 +92,7 @@ def bifurcations_between(point_at, start, end, first, last):
             place = brentq(value, first, last, xtol=tolerance)
             point = known[place]
             if not point.orbit.stable and abs(point.orbit.multipliers[0]) < 1 + NEAR_CIRCLE:
-                # Move the point to the stable side of the bifurcation, if one side is stable.
+                # Use a stable orbit close to the bifurcation, if one exists.
                 sides = (place - 2 * tolerance, place + 2 * tolerance)
                 beside = [point_at(side) for side in sides if (side - first) * (side - last) < 0]
                 point = next((each for each in beside if each.orbit.stable), point)
@@ -129,7 +129,7 @@ def events_between(start, end, length):
 
 
 def _is_complex_pair(multipliers):
-    """Return whether the two multipliers with the product nearest to 1 are complex conjugates."""
+    """Return whether the two multipliers whose product is closest to 1 are complex conjugates."""
     values = multipliers[np.isfinite(multipliers)]
     first, second = PAIRS[len(values)]
     k = np.argmin(np.abs(values[first] * values[second] - 1))
@@ -138,7 +138,7 @@ def _is_complex_pair(multipliers):
 
 
 def _changes_of_contact(point_at, start, end, length):
-    """Return (place, event) pairs of the changes of `Orbit.sequence` on a step, by bisection."""
+    """Return (place, event) for each change of `Orbit.sequence` on a step, found by bisection."""
     located, inner, before = [], 0.0, start.orbit.sequence
     while before != end.orbit.sequence and len(located) < MOST_CHANGES:
         outer, after = length, end.orbit
@@ -151,7 +151,7 @@ def _changes_of_contact(point_at, start, end, length):
                 inner = middle
             else:
                 outer, after = middle, orbit
-        # Store the event with the orbit on the side with more contacts.
+        # Of the two orbits beside the event, store the one with more contacts.
         sides = point_at(inner), point_at(outer)
         point = max(sides, key=lambda side: len(side.orbit.sequence))
         kind = _contact_event(point.orbit)
@@ -161,7 +161,7 @@ def _changes_of_contact(point_at, start, end, length):
 
 
 def _contact_event(orbit):
-    """Return the kind of event, merging or grazing, at which an orbit's slowest contact appears."""
+    """Return "merging" or "grazing", depending on how an orbit's slowest contact appears."""
     contacts = orbit.contacts
     k = int(np.argmin(np.abs(contacts[:, 3])))
     period = 2 * np.pi / orbit.p[FREQUENCY]

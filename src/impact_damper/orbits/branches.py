@@ -1,4 +1,4 @@
-"""Follow a branch of periodic orbits from one orbit in both directions of a parameter."""
+"""Follow a branch of periodic orbits from one orbit towards smaller and larger parameters."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -11,38 +11,38 @@ from impact_damper.orbits.bifurcations import Event, bifurcations_between, event
 from impact_damper.orbits.grazing import through_grazing
 from impact_damper.orbits.segments import NUDGE
 
-# Largest number of orbits of a branch in one direction of the parameter.
+# Largest number of orbits computed in each of the two directions.
 MOST_POINTS = 10_000
-# Largest difference between the states of equal orbits at W T = pi/2.
+# Orbits are equal if their states at W T = pi/2 differ by less than SAME.
 SAME = 1e-5
-# An orbit can lie on a step only if max |Z1| of the orbit and max |Z1| at the step's beginning
-# differ by at most NEARBY plus the change of max |Z1| on the step.
+# Only steps with similar displacements are searched for an orbit: the difference in max |Z1| must
+# be at most NEARBY plus the change of max |Z1| along the step.
 NEARBY = 0.02
-# Largest distance beyond the range of the parameter to which packed parameters are extrapolated.
+# Largest distance from the parameter's range at which `family` is extrapolated.
 EXTENDED = 1e-3
-# A branch has lost its contacts if all contacts of its last orbit begin at speeds below WEAK.
+# A branch ends with `contact_lost` if all contacts of its last orbit begin at speeds below WEAK.
 WEAK = 0.02
-# A fold is a meeting with a branch of more symmetry (symmetric orbits, or half the period) if
+# At a fold, a branch may meet a branch of symmetric orbits or of half the period. The two meet if
 # `Orbit.deviation` at the fold is below VANISHED times the deviation at the point before.
 VANISHED = 0.5
-# A grazing is searched for if a step changes contacts, or if a step shorter than CLOSE_STEP fails.
-# If no grazing is found, a step longer than CLOSE_STEP that changes contacts is halved.
-# REACH: largest distance of the grazing, divided by the length of the step.
+# A grazing is searched for if the sequence of contacts changes on a step, or if a step shorter than
+# CLOSE_STEP fails. It may lie up to REACH times the length of the step ahead. If none is found, a
+# step longer than CLOSE_STEP on which the sequence changes is halved.
 CLOSE_STEP, REACH = 2e-3, 8.0
-# A step longer than CLEAR_STEP is halved if an event on the step was not located, or if the step
-# may contain two folds or cross another branch.
+# A step longer than CLEAR_STEP is halved if it may contain two folds, or if an event on the step
+# was not located.
 CLEAR_STEP = 1e-4
 
 
 @dataclass(frozen=True)
 class Branch:
-    """A branch of orbits. The function `family` maps the parameter to packed parameters.
+    """A branch of orbits. `family(value)` is the array `p` of all parameters at a point.
 
-    `events` holds pairs: the index of a point, and the event there. `ends` holds the reasons why
-    the branch ends at its first and at its last point: range_ends (end of the parameter's range);
-    closed (curve); symmetry_breaking or period_doubling (meeting with a branch of more symmetry);
-    contact_lost; lost (Newton's method fails); point_limit (MOST_POINTS); unstable (too many
-    unstable orbits in a row). `lost` is the number of events that could not be located.
+    `events` holds pairs: the index of a point, and the event there. `ends` says why the branch ends
+    at its first and at its last point. range_ends: end of the parameter's range. closed: a closed
+    curve. symmetry_breaking or period_doubling: a branch of symmetric orbits or of half the period
+    is met. contact_lost. lost: Newton's method fails. point_limit: MOST_POINTS. unstable: too many
+    unstable orbits in a row. `lost` is the number of events that could not be located.
     """
 
     family: Callable[[float], np.ndarray]
@@ -62,7 +62,7 @@ class Branch:
         return np.array([point.orbit.record["maximum_displacement"] for point in self.points])
 
     def holds(self, orbit, value) -> bool:
-        """Return whether an orbit at a value of the parameter lies on the branch."""
+        """Return whether the branch contains a given orbit at a given value of the parameter."""
         if orbit.periods != self.points[0].orbit.periods:
             return False
         away = self.values - value
@@ -79,14 +79,14 @@ class Branch:
 
 
 def between(point, ahead, value):
-    """Return the point between two points of a branch where the parameter is `value`, or None."""
+    """Return the point at which the parameter is `value`, between two points, or None."""
     if np.array_equal(point.problem.phases, ahead.problem.phases):
         return continuation.point_at_value(point, ahead, value)
     return point.problem.at_value(point, value)
 
 
 def follow_branch(family, orbit, value, span, beyond=np.inf) -> Branch:
-    """Follow a branch in both directions, until more than `beyond` orbits in a row are unstable."""
+    """Follow a branch both ways, each until more than `beyond` orbits in a row are unstable."""
     family = _extended(family, span)
     problem = continuation.Problem.of(family, orbit)
     x, walks = problem.unknowns(orbit, value), []
@@ -109,7 +109,7 @@ def follow_branch(family, orbit, value, span, beyond=np.inf) -> Branch:
 
 
 def _extended(family, span):
-    """Return the function `family`, extrapolated linearly to parameters just outside `span`."""
+    """Return a function equal to `family` that also accepts parameters just outside `span`."""
 
     def extended(value):
         try:
@@ -127,7 +127,7 @@ def _extended(family, span):
 
 
 def _walk(problem, first, span, beyond) -> Branch:
-    """Follow a branch from a point along its tangent; return a `Branch` with "" as `ends[0]`."""
+    """Follow a branch in the direction of a point's tangent; return a `Branch` from this point."""
     points, events, lost, end, idle = [first], [], 0, "", 0
     if (first.value - span[0]) * (first.value - span[1]) >= 0:
         outward = np.sign(first.value - sum(span) / 2) * first.tangent[-1] > 0
@@ -175,7 +175,7 @@ def _walk(problem, first, span, beyond) -> Branch:
 def _next_pieces(point, span, length, search):
     """Return the pieces of the next step (see `_through_grazing`), [] if the step must be shorter.
 
-    Also return the ratio of the next step's length to this step's length, and whether a grazing was
+    Also return the factor by which to change the length of the step, and whether a grazing was
     searched for. If `search` is False, no grazing is searched for.
     """
     ahead, factor = continuation.next_point(point, span, length)
@@ -194,7 +194,7 @@ def _next_pieces(point, span, length, search):
         return [], 0.5, search
     along = (point.problem.metric * (ahead.x - point.x)) @ point.tangent
     located, missed = events_between(point, ahead, along)
-    # A branch has a fold where it meets a branch of more symmetry.
+    # Where a branch meets a branch of symmetric orbits or of half the period, it has a fold.
     crosses = point.orbit.deviation @ ahead.orbit.deviation < 0
     unseen = crosses and not any(event.kind == "fold" for event in located)
     if length > CLEAR_STEP and (missed or unseen):
@@ -205,8 +205,8 @@ def _next_pieces(point, span, length, search):
 def _ending(piece, first, span):
     """Return why a branch ends on a piece ("" if it goes on), and the events before this end.
 
-    Also return whether a meeting with a branch of more symmetry was missed. `first` is the first
-    point of the branch, or None if the branch has too few points to be closed.
+    Also return whether the event at this end could not be located. `first` is the first point of
+    the branch, or None if the branch has too few points to be closed.
     """
     start, ahead, located, missed = piece
     met = None
@@ -225,9 +225,9 @@ def _ending(piece, first, span):
 
 
 def _through_grazing(point, reach):
-    """Return the pieces of a branch through the next grazing within `reach`, [] without a grazing.
+    """Return the pieces of a branch through a grazing, [] if there is no grazing within `reach`.
 
-    A piece is a point, the next point, the events between both, and the number of missed events.
+    A piece is a tuple: a point, the next point, the events between them, and how many were missed.
     """
     passage = through_grazing(point, reach)
     if passage is None:
@@ -245,10 +245,10 @@ def _through_grazing(point, reach):
 
 
 def _meeting(events, orbit):
-    """Return the index of the event at which a branch meets a branch of more symmetry, or None.
+    """Return the index of the event at which a branch meets a more symmetric branch, or None.
 
-    The meeting is a fold of the branch at which `Orbit.deviation` vanishes. The deviation can also
-    change its sign without a meeting. If no fold was located, return len(events).
+    The event is a fold at which `Orbit.deviation` vanishes. If no fold was located, the event was
+    missed, and len(events) is returned.
     """
     folds = [k for k, event in enumerate(events) if event.kind == "fold"]
     least = VANISHED * np.max(np.abs(orbit.deviation))
@@ -259,7 +259,7 @@ def _meeting(events, orbit):
 
 
 def _passes(point, ahead, first):
-    """Return the point between two points that has the same orbit as the point `first`, or None."""
+    """Return the point between two points at which the orbit of `first` is met again, or None."""
     forward = (ahead.value - point.value) * first.tangent[-1] > 0
     if not forward or (point.value - first.value) * (ahead.value - first.value) > 0:
         return None

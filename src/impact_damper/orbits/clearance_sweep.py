@@ -1,4 +1,4 @@
-"""Largest displacement and its minimum over the clearance (figures 6, 7 and 11 of the paper)."""
+"""Largest displacement over the clearance, and its minimum (figures 6, 7 and 11 of the paper)."""
 
 from dataclasses import replace
 
@@ -55,8 +55,8 @@ def clearance_sweep(
         Increasing clearances d0. For a machine: increasing gaps (full play) in m, as `gap` in
         `Machine.damper`. The coordinate `clearance` of the result then holds gaps too.
     method : str
-        "simulated" finds the motions. "harmonic_balance" finds none: the result has only the
-        amplitude and the optimum by equation (7), and the clearances by rules (18) and (19).
+        "simulated" finds the motions. "harmonic_balance" only solves equations: the result holds
+        the amplitude and the optimum by equation (7), and the clearances by rules (18) and (19).
     starts, radius, whole_gap, seed, settling, workers, progress
         As in `frequency_response`, for each clearance.
 
@@ -65,13 +65,13 @@ def clearance_sweep(
     xarray.Dataset
         For each (clearance, motion): the variables of `frequency_response`. For each `clearance`:
         max |Z1| of the quiet motion (period 1, symmetric, two contacts; absent with gravity,
-        because no motion is symmetric then), max |Z1| of all motions to which starts lead, and the
-        amplitude of the smallest stable solution of (7). Scalars: the clearance with the smallest
-        quiet motion (the optimum) and the kind of this minimum; the optimum by (7); the clearances
-        by rules (18) and (19), NaN for (19) without a resonance peak; rm W^2 d0/f at the optimum,
-        with the amplitude f of the forcing, and this ratio by the theory of straight flight. For
-        each `edge`: the end of the range of clearances around the optimum in which max |Z1| of the
-        quiet motion is within 10 % of its minimum.
+        because no motion is symmetric then), the largest |Z1| of all motions to which starts lead,
+        and the amplitude of the smallest stable solution of (7). Scalars: the clearance with the
+        smallest quiet motion (the optimum) and the kind of this minimum; the optimum by (7); the
+        clearances by rules (18) and (19), NaN for (19) without a resonance peak; rm W^2 d0/f at the
+        optimum (f is the amplitude of the forcing), and this ratio by the theory of straight
+        flight. For each `edge`, lower and upper: the clearance up to which max |Z1| of the quiet
+        motion exceeds its minimum by at most 10 %.
 
     Raises
     ------
@@ -155,8 +155,8 @@ def _peak_rule(oscillator, mass_ratio):
 def _quiet_motions(data, clearances, rule):
     """Return the state and max |Z1| of the quiet motion at each clearance, and an index or None.
 
-    The index points to the clearance closest to `rule` with a quiet motion. At other clearances
-    only motions on the branch of this motion count. Without a quiet motion max |Z1| is NaN.
+    max |Z1| is NaN without a quiet motion. The index is the place of the clearance nearest to
+    `rule` that has a quiet motion. Quiet motions on other branches than this motion are ignored.
     """
     names = "outcome period contacts asymmetry maximum_displacement branch state"
     table = {name: data[name][1] for name in names.split()}
@@ -172,7 +172,7 @@ def _quiet_motions(data, clearances, rule):
 
 
 def _stable_part(p, state, span):
-    """Return clearances and max |Z1| on a branch's stable part, and max |Z1| as a function."""
+    """Return clearances and max |Z1| of stable orbits on a branch, and max |Z1| as a function."""
 
     def family(clearance):
         changed = p.copy()
@@ -194,10 +194,10 @@ def _stable_part(p, state, span):
     return values, branch.displacements[first:last], size_at
 
 
-# At both ends of the range around the optimum, max |Z1| is NEAR_MINIMUM times its minimum.
+# The range around the optimum ends where max |Z1| is NEAR_MINIMUM times its minimum.
 NEAR_MINIMUM = 1.1
-# DIFFERENCE: step of the difference quotient of max |Z1|. WIDE: largest distance of the quotient's
-# zero from the minimum that was found before. Both are divided by the clearance.
+# A smooth minimum of max |Z1| is refined: it lies where a central difference with the step
+# DIFFERENCE is zero. WIDE: largest change by this. Both are divided by the clearance.
 DIFFERENCE, WIDE = 3e-5, 1e-4
 
 
@@ -233,7 +233,7 @@ def minimum_table(values, sizes, size_at, span):
 
 
 def _stationary(size_at, best):
-    """Return the zero of the derivative of max |Z1| near `best`, or `best` if no zero is found."""
+    """Return the clearance near `best` at which max |Z1| is stationary, `best` if none is found."""
     step, reach = DIFFERENCE * best, WIDE * best
 
     def slope(clearance):
@@ -247,7 +247,7 @@ def _stationary(size_at, best):
 def _kind(size_at, best, least, longest):
     """Return "smooth" or "kink", the kind of the minimum of max |Z1| at the clearance `best`.
 
-    If the distance from the minimum is halved, the rise falls to a quarter (smooth) or half (kink).
+    At half the distance from the minimum, the rise is a quarter (smooth) or half (kink) as large.
     """
     steps = longest, longest / 2
     rises = [size_at(best + step) + size_at(best - step) - 2 * least for step in steps]
@@ -256,7 +256,7 @@ def _kind(size_at, best, least, longest):
 
 
 def _near(values, sizes, size_at, best, least):
-    """Return the clearance at which max |Z1| is NEAR_MINIMUM times `least`, or `values[-1]`."""
+    """Return where max |Z1| first reaches NEAR_MINIMUM times `least`, or else `values[-1]`."""
     level = NEAR_MINIMUM * least
     inside = best
     for value, size in zip(values, sizes, strict=True):

@@ -17,39 +17,39 @@ from impact_damper.orbits.orbit import TURN, Orbit, integrate
 from impact_damper.orbits.segments import FINE_NUDGE, NUDGE, slopes_of_ends
 from impact_damper.orbits.shooting import AMPLIFYING
 
-# Newton's method makes at most NEWTON corrections, each of which changes unknowns by up to LARGEST.
+# Newton's method fails after NEWTON corrections, or if an unknown must change by LARGEST or more.
 NEWTON, LARGEST = 10, 0.5
 # Newton's method has converged if the residual is a rounding error and one of these is true:
 # - The correction before the last one is below SURE.
-# - The derivative by the parameter is new, and the last correction is below CLOSE.
-# - The derivative is new. The last correction is below ROUNDING and above half the one before.
-# Without convergence, a correction above SURE must not exceed SHRINKING times the one before.
+# - The derivative by the parameter is up to date, and the last correction is below CLOSE.
+# - This derivative is up to date, and corrections below ROUNDING no longer shrink to half.
+# The method fails if a correction above SURE exceeds SHRINKING times the one before.
 CLOSE, ROUNDING, SURE, SHRINKING = 1e-10, 1e-4, 1e-6, 0.7
-# The derivative by the parameter is expensive. It is updated only if the last correction is below
-# REFINED and the sum of the corrections since the last update exceeds UNMOVED.
+# The derivative by the parameter is expensive. Therefore it is updated only if the last correction
+# is below REFINED and all corrections since the last update add up to more than UNMOVED.
 REFINED, UNMOVED = 1e-4, 5e-6
-# A linear system is nearly singular if the ratio of solution to right side exceeds SINGULAR^-0.5.
-# In this case singular values below SINGULAR times the largest singular value count as zero.
+# If the solution of a linear system is more than SINGULAR^-0.5 times its right side, the system is
+# nearly singular. Singular values below SINGULAR times the largest one then count as zero.
 SINGULAR = 1e-8
-# Lengths of the first and of the shortest step along a branch, in the metric of `Problem`.
+# Lengths of the first and of the shortest step along a branch, as in `Problem.length`.
 FIRST_STEP, SHORTEST_STEP = 0.01, 1e-9
-# Longest step, divided by max(SMALLEST, length of the vector of unknowns): LONGEST for symmetric or
-# stable orbits, LONGEST_UNSTABLE for other orbits.
+# A step has at most LONGEST times the length of the vector of unknowns, or LONGEST_UNSTABLE times
+# if orbits are neither symmetric nor stable. Vectors shorter than SMALLEST count as SMALLEST.
 LONGEST, LONGEST_UNSTABLE, SMALLEST = 0.02, 0.06, 0.05
-# Largest distance of the first guess of `Problem.at_value` from the given point. A farther guess
+# The first guess in `Problem.at_value` is at most this far from the given point. A farther guess
 # near a fold could be a state so large that its integration takes minutes.
 FARTHEST_GUESS = 0.08
-# ASIDE: largest distance of a point from its first guess, divided by the step. A farther point may
-# lie on another branch. FAILING: largest first correction, divided by this largest distance.
+# A point may lie about ASIDE times the length of the step away from its first guess. A farther
+# point may lie on another branch. The first correction may be FAILING times this distance.
 ASIDE, FAILING = 0.2, 2.0
 
 
 class Point(NamedTuple):
-    """A point of a branch; vectors have the shape (m n + 1,) for m segments.
+    """A point of a branch: the parameter's `value`, and the orbit there.
 
-    The unknowns `x` are the first states of the segments, each with n = 4 components (without a
-    damper n = 2: Z1, Z1'), and the parameter `value`. The `tangent` has the length 1 in the metric
-    of `problem`. `bend` and `twist` are the tangent's first and second derivative along the branch.
+    The m n + 1 unknowns `x` are the states at which the m segments begin, and the parameter. Of a
+    state n = 4 components are unknown, without a damper n = 2 (Z1, Z1'). `tangent`, `bend` and
+    `twist` are the first three derivatives of `x` by the length along the branch.
     """
 
     value: float
@@ -68,10 +68,10 @@ class Problem:
     In the metric, the squared distance of two points is the squared difference of their parameters
     plus the squared distance of their states, averaged over the segments.
 
-    The function `family` maps the parameter to packed parameters. `loose` is (Z2 - Z1, Z2' - Z1'),
-    constant without a damper. If `symmetric`, the segments cover half the period, all orbits are
-    symmetric, and the equations are regular where an orbit loses its symmetry. `rough` is the
-    largest norm of a segment's derivative after the last `recut` into several segments, else 0.
+    `family(value)` is the array `p` of all parameters at a point. `loose` is (Z2 - Z1, Z2' - Z1'),
+    which is constant without a damper. If `symmetric`, all orbits are symmetric, and the segments
+    cover half the period. `rough` is the largest norm of a segment's derivative when the orbit was
+    last divided into several segments by `recut`, otherwise 0.
     """
 
     family: Callable[[float], np.ndarray]
@@ -84,7 +84,7 @@ class Problem:
 
     @classmethod
     def of(cls, family, orbit, *, symmetric=None):
-        """Return the problem of an orbit. By default `symmetric` is found from the orbit."""
+        """Return the problem of an orbit. By default a symmetric orbit has a symmetric problem."""
         if symmetric is None:
             symmetric = bool(orbit.record["asymmetry"] < SYMMETRIC)
         cycle = orbit.periods * TURN * (0.5 if symmetric else 1.0)
@@ -115,16 +115,16 @@ class Problem:
 
     @cached_property
     def metric(self):
-        """Weights w, shape (m n + 1,). The squared distance is the sum of w (difference of x)^2."""
+        """Weight of each squared difference in the squared distance, shape (m n + 1,)."""
         m = len(self.phases) - 1
         return np.append(np.full(m * self.size, 1 / m), 1.0)
 
     def length(self, vector):
-        """Return the length of a vector of differences of unknowns, in the metric."""
+        """Return the length of the difference between two vectors of unknowns, in the metric."""
         return float(np.sqrt(self.metric @ vector**2))
 
     def unknowns(self, orbit, value):
-        """Return the unknowns, shape (m n + 1,), of an orbit at a value of the parameter."""
+        """Return the vector of unknowns `x` for an orbit at a value of the parameter."""
         return np.append([orbit.at(phase)[: self.size] for phase in self.phases[:-1]], value)
 
     def states(self, x):
@@ -134,12 +134,12 @@ class Problem:
         return np.concatenate([x[:2], x[:2] + self.loose])[None]
 
     def shoot(self, x):
-        """Return the `Orbit`, periodic or not, that has the unknowns x."""
+        """Integrate the segments from the unknowns x; the `Orbit` need not be periodic."""
         states = self.states(x)
         return integrate(self.family(x[-1]), self.periods, self.phases, states, self.sign)
 
     def rate(self, value):
-        """Return the derivative of the packed parameters by the parameter, shape (COUNT,)."""
+        """Return the derivative of the array `p` by the parameter, shape (COUNT,)."""
         ahead, behind = self.family(value + NUDGE), self.family(value - NUDGE)
         # Without a damper the clearance is infinite. Its derivative is set to 0.
         change = np.subtract(ahead, behind, out=np.zeros(len(ahead)), where=ahead < np.inf)
@@ -157,7 +157,7 @@ class Problem:
         return slopes
 
     def _matrix(self, orbit, slopes):
-        """Return the result of `rows`, given the result of `_slopes`."""
+        """Return the result of `rows`; `slopes` is the result of `_slopes`."""
         n = self.size
         return np.column_stack([segments.cyclic(orbit.factors[:, :n, :n]), slopes.ravel()])
 
@@ -193,7 +193,7 @@ class Problem:
         return None
 
     def _solved(self, orbit, slopes, row):
-        """Return two columns: a correction orthogonal to `row`, and a vector along the branch."""
+        """Return two columns: a correction orthogonal to `row`, and a tangent of the branch."""
         matrix, right = np.vstack([self._matrix(orbit, slopes), row]), np.zeros((len(row), 2))
         right[:-1, 0], right[-1, 1] = -orbit.defects[:, : self.size].ravel(), 1.0
         most = np.array([orbit.residual, 1.0]) / SINGULAR**0.5
@@ -204,7 +204,7 @@ class Problem:
         return np.linalg.lstsq(matrix, right, SINGULAR)[0]
 
     def near(self, x, border, length):
-        """Return the point that `correct` finds at most about ASIDE * `length` from x, or None."""
+        """Return the point that `correct` finds from x, or None if it is too far away (ASIDE)."""
         aside = ASIDE * abs(length) + min(ROUNDING, abs(length))
         point = self.correct(x, border, FAILING * aside)
         return None if point is None or self.length(point.x - x) > aside else point
@@ -222,7 +222,7 @@ class Problem:
 
 
 def point_at_distance(origin, point, ahead, distance):
-    """Return the point between two points at a distance along the tangent of `origin`, or None."""
+    """Return the point `distance` along the tangent of `origin`, between two points; or None."""
     row = origin.problem.metric * origin.tangent
     first, last = (row @ (end.x - origin.x) for end in (point, ahead))
     x = _cubic(point, ahead, (distance - first) / (last - first))
@@ -231,7 +231,7 @@ def point_at_distance(origin, point, ahead, distance):
 
 
 def point_at_value(point, ahead, value):
-    """Return the point between two points of one problem with `value` as parameter, or None."""
+    """Return the point at which the parameter is `value`, between two points; or None."""
     problem, chord = point.problem, ahead.x - point.x
 
     def beyond(fraction):
@@ -253,7 +253,7 @@ def point_at_value(point, ahead, value):
 def _cubic(point, ahead, fraction):
     """Return the unknowns on the cubic curve that touches the branch at two points.
 
-    `fraction` is the distance along the first tangent: 0 at the first point, 1 at the second point.
+    `fraction` says where: 0 is the first point, 1 the second point.
     """
     row = point.problem.metric * point.tangent
     chord = ahead.x - point.x
@@ -264,17 +264,17 @@ def _cubic(point, ahead, fraction):
     return point.x + fraction * length * point.tangent + bent
 
 
-# A step above one of these bounds may lead to another branch and is not accepted. TURNED: angle,
-# radian, between the tangents at the step's ends. SKEW: length of the difference between the unit
-# vector along the chord and the unit vector along the mean tangent.
+# A step above one of these bounds may lead to another branch and is rejected. TURNED: angle between
+# the tangents at the step's ends, radian. SKEW: length of the difference of two unit vectors, one
+# from end to end of the step, the other along the mean of the two tangents.
 TURNED, SKEW = 0.5, 0.03
-# AIM: steps should have the angle AIM x TURNED or the length AIM^2 x SKEW. GROWTH: largest ratio of
-# a step to the step before. SHRINKAGE: smallest ratio of a step to the rejected step before.
+# The length of a step is chosen to reach AIM x TURNED or AIM^2 x SKEW. A step is at most GROWTH
+# times as long as the step before. After a rejected step it is at least SHRINKAGE times as long.
 AIM, GROWTH, SHRINKAGE = 0.65, 1.5, 0.3
 
 
 def next_point(point, span, length):
-    """Return the next point within `span`, or None, and the ratio of the next step to `length`."""
+    """Return the next point, or None if the step fails, and a factor for the following `length`."""
     problem = point.problem
     bent = length**2 / 2 * point.bend + length**3 / 6 * point.twist
     ahead = problem.near(point.x + length * point.tangent + bent, point.tangent, length)
@@ -295,7 +295,7 @@ def next_point(point, span, length):
 
 
 def with_bend(point, ahead):
-    """Return the point `ahead` with `bend` and `twist` from the cubic curve of the step."""
+    """Return the point `ahead` with `bend` and `twist`, estimated from the step to this point."""
     length = ahead.problem.length(ahead.x - point.x)
     chord = (ahead.x - point.x) / length
     bend = (2 * point.tangent + 4 * ahead.tangent - 6 * chord) / length
@@ -308,21 +308,21 @@ def folds_twice(point, ahead):
     length = point.problem.length(ahead.x - point.x)
     first, last = length * point.tangent[-1], length * ahead.tangent[-1]
     chord = ahead.value - point.value
-    # The parameter has the derivative first + middle u + bend u^2 along the step, 0 < u < 1.
+    # Along the step, 0 < u < 1, the derivative of the parameter is first + middle u + bend u^2.
     bend, middle = 3 * (first + last) - 6 * chord, 6 * chord - 4 * first - 2 * last
     if first * last <= 0 or not 0 < -middle * bend < 2 * bend**2:
         return False
     return first * (first - middle**2 / (4 * bend)) < 0
 
 
-# An orbit keeps its several segments within these bounds. NEAR_SECTION: smallest distance of a
-# segment's beginning from a contact, radian. ROUGHER: largest norm of a segment's derivative,
-# divided by `Problem.rough`. MILD: smallest `Orbit.amplification`, divided by AMPLIFYING.
+# Several segments are replaced if one begins closer than NEAR_SECTION (radian) to a contact, if the
+# norm of a segment's derivative reaches ROUGHER times `Problem.rough`, or if a single segment is
+# enough because `Orbit.amplification` is below MILD times AMPLIFYING.
 NEAR_SECTION, ROUGHER, MILD = 0.02, 4.0, 0.5
 
 
 def holds_still(point):
-    """Return whether the orbit of a point keeps its segments (see NEAR_SECTION)."""
+    """Return whether the segments of a point's orbit can be kept (see NEAR_SECTION)."""
     problem, orbit = point.problem, point.orbit
     if not problem.damped:
         return True
@@ -353,5 +353,5 @@ def recut(point, between=()):
 
 
 def _norms(orbit):
-    """Return the Frobenius norms of the derivatives of the m segments of an orbit, shape (m,)."""
+    """Return the Frobenius norm of each segment's derivative, shape (m,)."""
     return np.sqrt(np.sum(orbit.factors**2, axis=(1, 2)))

@@ -1,7 +1,7 @@
 """Follow a branch through a grazing, at which a contact appears, vanishes, or parts in two.
 
-At a grazing an extremum of Z2 reaches a wall, and the branch turns sharply. The height of the
-extremum is |Z2| - d0. Except for a term of the power 3/2, an orbit depends smoothly on the height.
+At a grazing an extremum of Z2 reaches a wall, and the branch turns sharply. Therefore its points
+are computed at chosen values of |Z2| - d0 in this extremum, called the height of the extremum.
 """
 
 from typing import NamedTuple
@@ -14,21 +14,21 @@ from impact_damper.orbits import segments
 from impact_damper.orbits.continuation import NEWTON, Point, recut
 from impact_damper.orbits.segments import list_turns, slopes_of_ends
 
-# Heights of points on the side with more contacts have the moduli LEAST x RATIO^k, up to MOST.
+# On the side with more contacts, points are computed at |height| = LEAST x RATIO^k, up to MOST.
 RATIO, LEAST, MOST = 10.0, 1e-13, 2e-5
-# HALVINGS: largest number of divisions of failed steps through a grazing. HALVINGS_BETWEEN: largest
-# number of divisions between two points.
+# A step from height to height that fails is divided in two. HALVINGS: how often in one grazing.
+# HALVINGS_BETWEEN: how often in a row for a point between two known points.
 HALVINGS, HALVINGS_BETWEEN = 8, 3
-# A step after which `Orbit.deviation` is below FALLEN times its old size leads to another branch.
+# If a step reduces `Orbit.deviation` below FALLEN times its size, it leads to another branch.
 FALLEN = 0.01
-# Moduli of heights of points on the side with fewer contacts.
+# On the side with fewer contacts, points are computed at these |height|.
 BESIDE = 1e-9, 2e-5
-# Corrections must be below LARGEST. The last error of a height is below CLOSE x height + ROUNDING.
+# Corrections must be below LARGEST, the final error of a height below CLOSE x |height| + ROUNDING.
 LARGEST, CLOSE, ROUNDING = 0.5, 1e-4, 1e-14
 
 
 def at_height(problem, x, turn, height, direction):
-    """Return the point near x where the extremum `turn` has `height`, and its `Turn`; or None."""
+    """Return the point near x at which an extremum has `height`, and the extremum; or None."""
     x = x.copy()
     for _ in range(NEWTON):
         orbit = problem.shoot(x)
@@ -53,7 +53,7 @@ def at_height(problem, x, turn, height, direction):
 
 
 class Passage(NamedTuple):
-    """Points of a branch through a grazing, each with height and `Turn` of the grazing extremum.
+    """Points of a branch through a grazing, and at each point the extremum that grazes.
 
     `grazing` is the index of the point closest to the grazing, on the side with more contacts.
     `kind` is "grazing", or "merging" if a contact parts in two or two contacts become one.
@@ -66,7 +66,7 @@ class Passage(NamedTuple):
     kind: str
 
     def between(self, k):
-        """Return a function that finds the point of a given height between points k and k + 1."""
+        """Return a function that finds the point at a given height, between points k and k + 1."""
         known = [(self.heights[end], self.points[end], self.turns[end]) for end in (k, k + 1)]
         direction = np.sign(self.heights[k + 1] - self.heights[k])
 
@@ -116,7 +116,7 @@ def through_grazing(point, reach):
 
 
 def _along(point, turn, targets, direction, contacts):
-    """Follow a branch from height to height as far as possible; return points, heights, turns."""
+    """Compute points at the heights `targets` until this fails; return points, heights, turns."""
     points, heights, turns = [point], [turn.height], [turn]
     pending, halvings = targets[::-1], 0
     while pending and halvings <= HALVINGS:
@@ -139,14 +139,14 @@ def _along(point, turn, targets, direction, contacts):
 
 
 def _before(height, target):
-    """Return a height that divides a failed step: the geometric mean if both signs are equal."""
+    """Return a height between two heights, at which to divide a failed step."""
     if height * target > 0:
         return height * (target / height) ** 0.5
     return height / 2 if abs(height) > abs(target) else target / RATIO
 
 
 def _targets(height, sharp, direction):
-    """Return the heights of the points on the way through a grazing, in the order of the way."""
+    """Return the heights at which points through a grazing are computed, one after the other."""
     fine = LEAST * RATIO ** np.arange(1 + int(np.log(MOST / LEAST) / np.log(RATIO)))
     if direction == sharp:
         return list(sharp * fine)
@@ -154,19 +154,19 @@ def _targets(height, sharp, direction):
     return [*(sharp * inside[::-1]), *(direction * height for height in BESIDE)]
 
 
-# Distance along the tangent of a branch over which the change of a height is estimated.
+# Length of the step along the tangent of a branch with which the change of a height is estimated.
 SHIFT = 1e-10
-# Number of rows for each segment that the list of extrema has at first.
+# At first the list of extrema has room for TURNS extrema in each segment.
 TURNS = 256
-# Largest difference, radian, between the phases of the same extremum on two neighbouring orbits.
+# The phase of an extremum may differ by so much between two neighbouring orbits, radian.
 MOVED = 0.1
 
 
 class Turn(NamedTuple):
-    """An extremum of Z2 in a segment of an orbit, at a phase W T, with the height |Z2| - d0.
+    """An extremum of Z2 on an orbit: index of the segment, phase W T, and height |Z2| - d0.
 
-    `outer` is True for a maximum of |Z2|. `gradient` (4 m + 1,) is the derivative of the height by
-    the unknowns (see `continuation.Point`), or None.
+    `outer` is True for a maximum of |Z2|. `gradient` is the derivative of the height by the
+    unknowns (see `continuation.Point`), shape (4 m + 1,), or None before it is computed.
     """
 
     segment: int
@@ -177,7 +177,7 @@ class Turn(NamedTuple):
 
 
 def turns_of(orbit):
-    """Return a list of all extrema of Z2 of an orbit, without their gradients."""
+    """Return a list of all extrema of Z2 on an orbit, without gradients."""
     count = room = TURNS * len(orbit.states)
     while count >= room:
         room = count + 1
@@ -189,7 +189,7 @@ def turns_of(orbit):
 def with_gradient(problem, x, orbit, turn):
     """Return an extremum with its gradient. The array `x` holds the unknowns of the orbit.
 
-    Z2' is zero at the extremum, so a small shift of the phase does not change the height.
+    The gradient is computed at a fixed phase: Z2' = 0, so a small shift does not change the height.
     """
     k, rate = turn.segment, problem.rate(x[-1])
     phases, begin = np.array([orbit.phases[k], turn.phase]), orbit.states[k]
@@ -203,7 +203,7 @@ def with_gradient(problem, x, orbit, turn):
 
 
 def nearest(turns, turn):
-    """Return the extremum closest in phase to `turn`, if possible with equal `outer`, or None."""
+    """Return the extremum in `turns` whose phase is closest to `turn`, or None if none is close."""
     near = [each for each in turns if each.segment == turn.segment]
     near = [each for each in near if abs(each.phase - turn.phase) < MOVED]
     near = [each for each in near if each.outer == turn.outer] or near
@@ -211,7 +211,7 @@ def nearest(turns, turn):
 
 
 def next_grazing(point, reach):
-    """Return the extremum that is first to reach a wall along the tangent of a point, or None."""
+    """Return the extremum that grazes first if a point moves along its tangent, or None."""
     problem, candidates = point.problem, []
     ahead = turns_of(problem.shoot(point.x + SHIFT * point.tangent))
     for turn in turns_of(point.orbit):

@@ -20,30 +20,30 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE, STROBE
 from impact_damper.orbits import segments
 from impact_damper.orbits.segments import flow_all
 
-# Length of a forcing cycle as a phase, radian.
+# Increase of the phase W T in one forcing cycle, radian.
 TURN = 2 * math.pi
-# Largest residual of a converged orbit, divided by max(1, largest component of a state): RESIDUAL,
-# or with contacts max(RESIDUAL, STIFF_RESIDUAL x natural frequency of a contact).
+# An orbit has converged if its residual, divided by max(1, largest component of a state), is below
+# RESIDUAL. With stiff contacts it may be STIFF_RESIDUAL times the natural frequency of a contact.
 RESIDUAL, STIFF_RESIDUAL = 1e-12, 7e-15
-# Smallest distance of the first phase of an orbit from a contact, radian.
+# An orbit should begin at least this far from a contact, radian.
 MARGIN = 0.15
-# First number of rows of the log of contacts: 2 CONTACTS x (number of cycles + number of segments).
+# At first the list of contacts has room for 2 CONTACTS in each forcing cycle and in each segment.
 CONTACTS = 64
 
 
 @dataclass(frozen=True)
 class Orbit:
-    """A periodic orbit, or an approximation of an orbit, in m segments that should end in flight.
+    """A periodic orbit, or an approximation of one, divided into m segments of time.
 
-    p: Packed parameters.
+    p: Array of all parameters (`model.packed`).
     periods: Period n in forcing cycles.
-    phases: Phases W T at the beginnings of segments and at the end of the last, shape (m + 1,).
-    states: States at the beginnings of segments, shape (m, 4).
+    phases: Phases W T at which the segments begin, and the last one's end, shape (m + 1,).
+    states: States at which the segments begin, shape (m, 4).
     sign: -1 if the segments cover half the period of a symmetric orbit, otherwise 1.
-    ends: States at the ends of segments, by integration, shape (m, 4).
+    ends: States to which integration leads at the ends of the segments, shape (m, 4).
     factors: Derivatives of `ends` by `states`, (m, 4, 4); factors[-1] is multiplied by `sign`.
     contact_time: Total time in contact in all segments.
-    maps: How often all segments were integrated to find the orbit.
+    maps: Number of times that all segments were integrated to find the orbit.
     """
 
     p: np.ndarray
@@ -81,12 +81,12 @@ class Orbit:
 
     @cached_property
     def residual(self):
-        """Largest modulus of a component of the defects."""
+        """Largest modulus in `defects`."""
         return float(np.abs(self.defects).max())
 
     @property
     def converged(self):
-        """Whether the residual is a rounding error of the states."""
+        """Whether the residual is as small as a rounding error."""
         bound = RESIDUAL
         if self.contact_time > 0:
             stiffness = self.p[CONTACT_STIFFNESS] * (1 + self.p[INVERSE_MASS_RATIO])
@@ -95,17 +95,17 @@ class Orbit:
 
     @cached_property
     def matrix(self):
-        """Product of all `factors`, (4, 4). Its eigenvalues are less exact than `multipliers`."""
+        """Product of all `factors`, shape (4, 4)."""
         return reduce(lambda product, factor: factor @ product, self.factors)
 
     @property
     def monodromy(self):
-        """Derivative of the map over the period, shape (4, 4)."""
+        """Derivative of the state after one period by the state before, shape (4, 4)."""
         return self.matrix @ self.matrix if self.sign < 0 else self.matrix
 
     @property
     def amplification(self):
-        """Norm of the `matrix`."""
+        """Spectral norm of the `matrix`: the largest growth of a small disturbance in a `cycle`."""
         return np.linalg.norm(self.matrix, 2) if np.all(np.isfinite(self.matrix)) else np.inf
 
     @property
@@ -128,7 +128,7 @@ class Orbit:
 
     @cached_property
     def cycle_multipliers(self):
-        """Eigenvalues of the `matrix`, shape (active,)."""
+        """Eigenvalues of the `matrix`, shape (active,), more exact than from the product itself."""
         n = self.active
         return segments.multipliers(self.factors[:, :n, :n])
 
@@ -152,10 +152,10 @@ class Orbit:
 
     @cached_property
     def _surveyed(self):
-        """Contacts of a cycle, largest |Z1|, and complex first harmonics of Z1 and Z2."""
+        """Contacts, largest |Z1|, and complex first harmonics of Z1 and Z2, in one `cycle`."""
         states, phases = self.states.copy(), self.phases
         if side_of(self.p, states[0]) != 0:
-            # The contact at the first state began in the cycle before, so survey two cycles.
+            # The first state lies in a contact, which began in the cycle before: survey two cycles.
             phases = self.phases[0] + np.array([0.0, 2 * self.cycle])
         times = phases / self.p[FREQUENCY]
         room, sums = 2 * CONTACTS * (self.periods + len(states)), np.empty((2, 2))
@@ -170,7 +170,7 @@ class Orbit:
 
     @cached_property
     def contacts(self):
-        """Contacts, shape (k, 5): wall (-1 or 1), beginning, end, Z2' at beginning and at end."""
+        """For each contact: wall (-1 or 1), times of beginning and end, Z2' at both; (k, 5)."""
         log = self._surveyed[0]
         if self.sign > 0:
             return log
@@ -179,7 +179,7 @@ class Orbit:
 
     @cached_property
     def sequence(self):
-        """Walls touched in the order of time, such as "+-"; the least of all its cyclic shifts."""
+        """Walls touched in the order of time, such as "+-"; the same for any first phase."""
         walls = "".join("+" if wall > 0 else "-" for wall in self.contacts[:, 0])
         return min((walls[k:] + walls[:k] for k in range(len(walls))), default="")
 
@@ -196,7 +196,7 @@ class Orbit:
 
     def at(self, phase):
         """Return the state, shape (4,), at a phase W T, radian, not before the first phase."""
-        # A single segment is integrated beyond its end. With several segments the cycle repeats.
+        # A single segment is integrated beyond its end. Several segments are repeated instead.
         turns = int((phase - self.phases[0]) // self.cycle) if len(self.states) > 1 else 0
         local = phase - turns * self.cycle
         k = min(max(int(np.searchsorted(self.phases, local, "right")) - 1, 0), len(self.states) - 1)
@@ -206,10 +206,10 @@ class Orbit:
 
     @cached_property
     def deviation(self):
-        """First state minus (if `periods` is odd, plus) the state half a period later, shape (4,).
+        """Deviation from a symmetric orbit or, if `periods` is even, from one of half the period.
 
-        The deviation changes its sign where a branch meets a branch of symmetric orbits or of half
-        the period. If `sign` is -1, all entries are 1.
+        It is the first state plus (even: minus) the state half a period later, shape (4,). Where a
+        branch meets a branch of such orbits, it changes its sign. If `sign` is -1, it is all ones.
         """
         if self.sign < 0:
             return np.ones(4)
@@ -224,7 +224,7 @@ class Orbit:
 
     @cached_property
     def record(self):
-        """A `records.MOTION` with largest |Z1|, contacts, asymmetry and first harmonics."""
+        """Largest |Z1|, contacts, asymmetry and first harmonics, as a `records.MOTION`."""
         record = np.zeros(1, records.MOTION)[0]
         _, largest, harmonics = self._surveyed
         record["maximum_displacement"] = largest
@@ -236,7 +236,7 @@ class Orbit:
         return record
 
     def is_same(self, other, tolerance=1e-6):
-        """Return whether `other` is this orbit or its mirror image, up to a shift in time."""
+        """Return whether `other` is this orbit or its mirror image, perhaps shifted in time."""
         if other.periods != self.periods:
             return False
         first = self.phase + (STROBE - self.phase) % TURN + TURN / 2
@@ -259,7 +259,7 @@ class Orbit:
         return np.min(distances, axis=-1, initial=np.inf)
 
     def flight_phase(self):
-        """Return the first phase or, if it is near a contact, the middle of the longest flight."""
+        """Return the first phase or, if a contact is near, the middle of the longest flight."""
         if not self.touching or self.margin(self.phase) > MARGIN:
             return self.phase
         ends = self.p[FREQUENCY] * self.contacts[:, 2]
@@ -270,7 +270,7 @@ class Orbit:
 
 
 def integrate(p, periods, phases, states, sign=1) -> Orbit:
-    """Return an `Orbit`, periodic or not, from the `states` at the beginnings of segments."""
+    """Integrate segments from their first `states`; the `Orbit` need not be periodic."""
     ends, tangents = np.array(states, float), np.tile(np.eye(4), (len(states), 1, 1))
     phases = np.asarray(phases, float)
     touching = flow_all(p, ends, tangents, phases / p[FREQUENCY], POLISH_TOLERANCE)

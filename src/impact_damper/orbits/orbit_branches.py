@@ -21,8 +21,8 @@ from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.orbits.switching import follow_others, met_by
 
-# A branch of a period above 1 ends when the periods of unstable orbits in a row add up to more than
-# BEYOND forcing cycles. Stable parts of the branch beyond this end are narrower than 0.01 in W.
+# A branch of period n > 1 is followed no farther after more than BEYOND / n unstable orbits in a
+# row. Stable parts of the branch beyond this end are narrower than 0.01 in W.
 BEYOND = 300
 
 
@@ -41,15 +41,15 @@ def periodic_orbit(system, damper, frequency, state, *, period=1, phase=None):
     period : int
         Period n of the orbit in forcing cycles.
     phase : float, optional
-        Phase W T of the state, radian. The default is the phase stored with the state of a dataset,
-        and pi/2 for other states.
+        Phase W T of the state, radian. By default the phase stored with the state, if the state
+        comes from a dataset, otherwise pi/2.
 
     Returns
     -------
     xarray.Dataset
-        For the orbit: the variables that `orbit_branches` returns for a `point`. The state is given
-        at a phase in a flight. For each `contact`: the wall, and the time and the relative velocity
-        Z2' at the beginning and at the end.
+        For the orbit: the variables that `orbit_branches` returns for a `point`. At the phase of
+        the state, the loose mass touches no wall. For each `contact`: the wall, and the time and
+        the relative velocity Z2' at the beginning and at the end.
 
     Raises
     ------
@@ -61,7 +61,7 @@ def periodic_orbit(system, damper, frequency, state, *, period=1, phase=None):
     Warns
     -----
     UserWarning
-        If the orbit already repeats after a divisor of the period.
+        If the orbit has a shorter period, a divisor of `period`.
 
     Examples
     --------
@@ -101,14 +101,14 @@ def orbit_branches(
     With a frequency and a state, the function follows the branch of the orbit near the state. With
     `motions`, it follows over the frequency every branch through a settled motion, and in addition
 
-    - from a branch of period 1 or 3: branches that leave at a loss of symmetry, or at a period
-      doubling next to stable orbits;
-    - from other branches: branches of a period up to 9 that leave next to stable orbits and begin
-      with stable orbits;
-    - the symmetric branch, or branch of half the period, at which a branch of period <= 4 ends.
+    - branches that leave a branch of period 1 or 3 at a loss of symmetry, or at a period doubling
+      next to stable orbits;
+    - branches of a period up to 9 that leave other branches next to stable orbits and begin with
+      stable orbits;
+    - the branch of symmetric orbits, or of half the period, at which a branch of a period up to 4
+      ends.
 
-    With `motions`, a branch of a period above 1 ends when the periods of unstable orbits in a row
-    add up to more than 300 forcing cycles.
+    With `motions`, a branch of period n > 1 ends after more than 300/n unstable orbits in a row.
 
     Parameters
     ----------
@@ -134,20 +134,20 @@ def orbit_branches(
     xarray.Dataset
         For each `point`, in order along the branches, an orbit: the parameter, the largest
         displacement, stability, Floquet multipliers, contacts, the state and its phase, the
-        residual, and the error of the determinant by Liouville's theorem. `orbit_status` says how
-        reliable these numbers are. For each `event`: its kind, which is fold, symmetry breaking,
+        residual, and the relative error of the monodromy matrix's determinant. `orbit_status` says
+        how reliable the orbit is. For each `event`: its kind, which is fold, symmetry breaking,
         period doubling, Neimark-Sacker bifurcation, grazing (a contact appears or vanishes in
         flight) or merging (two contacts with one wall become one, or one contact becomes two). For
         each (branch, edge): the reason why the branch ends. With `motions`: `seeds`, the number of
-        settled motions (only motions with contacts if there is a damper), and `seeds_lost`, the
-        number of seeds without an orbit of equal period. Mirror images count as one branch.
+        settled motions (with a damper only motions with contacts), and `seeds_lost`, the number of
+        seeds near which no orbit of equal period was found. Mirror images count as one branch.
 
     Raises
     ------
     TypeError, ValueError
         If an argument is of another type or out of range.
     ArithmeticError
-        If Newton's method finds no orbit, or one that repeats after a divisor of the period.
+        If Newton's method finds no orbit, or an orbit of a shorter period, a divisor of `period`.
 
     Examples
     --------
@@ -212,7 +212,7 @@ def _all_branches(system, damper, span, motions, progress):
 
 
 def _checked_orbit(model, state, period, phase):
-    """Return the checked state and the orbit near this state; raise as `periodic_orbit` does."""
+    """Check a state; return the state and the orbit near it. Raise as `periodic_orbit` does."""
     bounds.check_count("period", period, most=1000)
     if phase is None:
         carried = carried_phase(state)
@@ -229,7 +229,7 @@ def _checked_orbit(model, state, period, phase):
 
 
 def _seeds(motions, damper):
-    """Yield period, frequency, max |Z1|, state of settled motions (damped: only with contacts)."""
+    """Yield period, frequency, max |Z1| and state of each settled motion to begin a branch at."""
     for data in motions:
         chosen = data["outcome"].values == flag("outcome", "settled")
         if damper is not None:
@@ -240,8 +240,8 @@ def _seeds(motions, damper):
             yield int(motion["period"]), frequency, size, motion["state"].values
 
 
-# An orbit is near a grazing if a contact begins with |Z2'| below SLOW. Multipliers are then valid
-# only for very small disturbances d, because the coefficient of a term d^(3/2) is large.
+# An orbit is near a grazing if a contact begins with |Z2'| below SLOW. Its multipliers then hold
+# only for very small disturbances.
 SLOW = 0.01
 
 
@@ -254,7 +254,7 @@ def _status(orbit):
 
 
 def orbit_variables(pairs):
-    """Return the variables with the dimension `point`, from pairs (parameter, `Orbit`)."""
+    """Return the dataset variables that describe orbits, from pairs (parameter, `Orbit`)."""
     values, orbits = zip(*pairs, strict=True) if pairs else ((), ())
     records = np.array([orbit.record for orbit in orbits], MOTION)
     first, second = records["harmonic_displacement"], records["harmonic_relative"]
@@ -282,7 +282,7 @@ def orbit_variables(pairs):
 
 
 def branches_dataset(branches, back, parameters, title, model=None, more=None):
-    """Return a dataset of branches, in the units of `model`, or dimensionless without a model."""
+    """Return a dataset of branches. `back` maps the followed number back to the parameter."""
     points = [(back(point.value), point.orbit) for branch in branches for point in branch.points]
     sizes = [len(branch.points) for branch in branches]
     events = [(number, *pair) for number, branch in enumerate(branches) for pair in branch.events]

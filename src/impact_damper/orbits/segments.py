@@ -1,7 +1,7 @@
 """Multiple shooting: divide an orbit into segments, and combine the derivatives of segments.
 
-A strongly unstable orbit is accurate if each of its segments amplifies rounding errors little. The
-derivative of a segment is d(last state)/d(first state). A segment begins at each cut.
+Rounding errors grow along a strongly unstable orbit, but only little along a short segment of it.
+The derivative of a segment is the matrix d(last state)/d(first state).
 """
 
 from functools import reduce
@@ -30,14 +30,14 @@ APART = 30.0
 # Orthogonal iteration makes at most SWEEPS sweeps, and ends when a sweep changes the basis by less
 # than SETTLED. It separates multipliers only if the last change of the basis is below COUPLED.
 SWEEPS, SETTLED, COUPLED = 14, 1e-15, 1e-8
-# Largest norm of the derivative of a segment, if possible.
+# If possible, the norm of a segment's derivative is below AMPLIFIED.
 AMPLIFIED = 30.0
-# Smallest distance of a cut from contacts, radian, if possible.
+# If possible, segments begin at least this far from contacts, radian.
 CLEAR = 0.05
 
 
 def run(p, state, tangents, begin, end):
-    """Integrate a state and its tangents in place, from the phase `begin` to the phase `end`."""
+    """Integrate a state and its small disturbances (`tangents`) in place, between two phases."""
     times = begin / p[FREQUENCY], end / p[FREQUENCY]
     advance(p, state, tangents, side_of(p, state), *times, POLISH_TOLERANCE, workspace())
 
@@ -52,7 +52,7 @@ def cyclic(factors):
 
 
 def multipliers(factors):
-    """Return the eigenvalues of a product of matrices, without computing the product.
+    """Return the eigenvalues of the product of the matrices `factors`, without multiplying them.
 
     Orthogonal iteration makes the product block triangular. Each diagonal block has eigenvalues of
     similar moduli, such as a complex pair.
@@ -80,10 +80,10 @@ def multipliers(factors):
 
 @kernel
 def sweep(factors, basis, triangles):
-    """Compute the QR decompositions A_k Q_(k-1) = Q_k R_k of matrices A_k, by Gram-Schmidt.
+    """Compute the QR decompositions A_k Q_(k-1) = Q_k R_k of the matrices A_k in `factors`.
 
-    `triangles` receives the R_k. `basis` holds Q_0 at first, and the last Q_k at the end. Each
-    vector is made orthogonal twice, because rounding errors remain after the first time.
+    `triangles` receives the R_k. `basis` is Q_0 at first and the last Q_k at the end. Gram-Schmidt
+    makes each vector orthogonal twice, because rounding errors remain after the first time.
     """
     m, n = factors.shape[:2]
     moved = np.empty((n, n))
@@ -114,9 +114,9 @@ def sweep(factors, basis, triangles):
 def cut(orbit, cycle, between=()):
     """Return the phases at which an orbit is cut into segments, shape (m + 1,).
 
-    An orbit without contacts is one segment. Otherwise the phases lie in the middle of flights, and
-    the norm of a segment's derivative is below AMPLIFIED if possible. The phases `between` divide
-    flights into parts. Each part longer than 2 CLEAR is cut in its middle.
+    An orbit without contacts is one segment. Otherwise the cuts lie in the middle of flights. If
+    possible, they are so close that the norm of each segment's derivative is below AMPLIFIED. A
+    flight with phases in `between` is cut on both sides of each phase, if there is room.
     """
     if not orbit.touching:
         return np.array([orbit.phase, orbit.phase + cycle])
@@ -134,7 +134,7 @@ def cut(orbit, cycle, between=()):
 
 
 def _sections(orbit, cycle, between):
-    """Return two lists of phases: possible cuts, beginning in the longest flight; forced cuts."""
+    """Return two lists of phases: possible cuts, the first in the longest flight; forced cuts."""
     log, first = orbit.contacts, orbit.phase
     begins, ends = (orbit.p[FREQUENCY] * log[:, k] for k in (1, 2))
     following = np.append(begins[1:], begins[0] + orbit.periods * 2 * np.pi)
@@ -149,8 +149,8 @@ def _sections(orbit, cycle, between):
                 forced += [middle] * (len(marks) > 2)
             longest = max(longest, (high - low, middle))
     start = longest[1]
-    # If the cycle is half the period, flights half a period apart give the same phase modulo
-    # `cycle`. The shift by 1e-9 keeps `start` first in spite of rounding errors.
+    # If `cycle` is half the period, flights half a period apart have the same phase modulo `cycle`
+    # and count once. The shift by 1e-9 keeps `start` first in spite of rounding errors.
     places = np.sort(start + (np.array([*middles, start]) - start + 1e-9) % cycle - 1e-9)
     places = places[np.append(True, np.diff(places) > 1e-6)]
     places = places[places < start + cycle - 1e-6]
@@ -158,17 +158,17 @@ def _sections(orbit, cycle, between):
     return places, [place for place in places if np.min(np.abs(forced - place), initial=1) < 1e-6]
 
 
-# Central differences change the parameter by NUDGE, or by FINE_NUDGE if the second difference
-# exceeds BENT times the first difference, because a contact then appears or vanishes.
+# Central differences change the parameter by NUDGE. If the second difference exceeds BENT times the
+# first difference, a contact appears or vanishes, and the change is FINE_NUDGE instead.
 NUDGE, FINE_NUDGE, BENT = 2e-7, 1e-9, 1e-3
 
 
 @kernel
 def list_turns(p, states, phases, tolerance, turns):
-    """Write the first n extrema of Z2 of a motion in segments to `turns`; return how many exist.
+    """Write the extrema of Z2 in all segments to the n rows of `turns`; return how many exist.
 
-    The columns of `turns` (n, 4) are the segment; the phase W T; 1 at a maximum of |Z2|, 0 at a
-    minimum; and |Z2| minus the clearance.
+    Extrema after the first n are only counted. The columns of `turns` are: the index of the
+    segment, the phase W T, 1 at a maximum of |Z2| or 0 at a minimum, and |Z2| - d0.
     """
     work, start = workspace(), np.empty(4)
     c = np.empty(max(FLIGHT_ORDER, CONTACT_ORDER) + 1)
@@ -200,7 +200,7 @@ def list_turns(p, states, phases, tolerance, turns):
 
 @kernel
 def flow_all(p, states, tangents, times, tolerance):
-    """Integrate m states and their tangents (m, 0 or 4, 4) in place; return the time in contact."""
+    """Integrate the states and `tangents` of m segments in place; return the time in contact."""
     work, touching = workspace(), 0.0
     for k in range(len(states)):
         side = side_of(p, states[k])
@@ -212,10 +212,10 @@ def flow_all(p, states, tangents, times, tolerance):
 
 @kernel
 def slopes_of_ends(p, rate, phases, states, ends, sign, tolerance, slopes):
-    """Compute the derivatives of the segments' end states by a parameter, by central differences.
+    """Compute the derivatives of the segments' `ends` by a parameter, with central differences.
 
-    `rate` (COUNT,) holds the derivatives of the packed parameters by this parameter. `sign` is
-    `Orbit.sign`. `slopes` (m, n) receives the first n components of each derivative.
+    `rate` is the derivative of the array `p` by this parameter. `sign` is `Orbit.sign`. `slopes`
+    receives the first n components of each derivative, shape (m, n).
     """
     work, none = workspace(), np.empty((0, 4))
     ahead, behind, moved = np.empty(4), np.empty(4), np.empty(COUNT)

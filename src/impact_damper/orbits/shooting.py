@@ -1,4 +1,4 @@
-"""Find periodic orbits, stable or unstable, by Newton's method on the event-driven flow."""
+"""Find periodic orbits, stable or unstable, by Newton's method."""
 
 from dataclasses import replace
 
@@ -8,11 +8,11 @@ from impact_damper.motions.strobe_map import STROBE
 from impact_damper.orbits import segments
 from impact_damper.orbits.orbit import TURN, Orbit, integrate
 
-# Newton's method: largest number of corrections, and largest correction of a component of a state.
+# Newton's method makes at most ITERATIONS corrections. A component of a state changes by up to FAR.
 ITERATIONS, FAR = 20, 10.0
-# With a residual below NEAR, an orbit is exact enough to be integrated to another phase.
+# An orbit with a residual below NEAR is exact enough to be integrated to another phase.
 NEAR = 1e-6
-# Largest `Orbit.amplification` of an orbit that is found without multiple shooting.
+# Multiple shooting is used if `Orbit.amplification` exceeds AMPLIFYING.
 AMPLIFYING = 100.0
 # An orbit is divided into segments at most CUTS times. It is divided again if the norm of a
 # segment's derivative is ROUGH times `segments.AMPLIFIED` or more.
@@ -20,16 +20,16 @@ CUTS, ROUGH = 4, 4.0
 
 
 def shoot(p, state, periods, phase, *, symmetric=False) -> Orbit:
-    """Return the `Orbit` of one segment that begins with a state, without iteration.
+    """Integrate a period from a state; the `Orbit` has one segment and need not be periodic.
 
-    If `symmetric`, the segment covers half the period, and `periods` must be odd.
+    If `symmetric`, integrate only half the period. `periods` must then be odd.
     """
     cycle = periods * TURN * (0.5 if symmetric else 1.0)
     return integrate(p, periods, (phase, phase + cycle), [state], -1 if symmetric else 1)
 
 
 def find_orbit(p, state, periods=1, phase=STROBE) -> Orbit:
-    """Find the orbit near a state at a phase W T by Newton's method; see `Orbit.converged`.
+    """Find the orbit near a state at a phase W T. `Orbit.converged` tells whether this succeeded.
 
     Without contacts only Z1 and Z1' are unknown, and the loose mass keeps its state. The first
     phase of a converged orbit lies in a flight.
@@ -49,7 +49,7 @@ def find_orbit(p, state, periods=1, phase=STROBE) -> Orbit:
 
 
 def newton(orbit, reach=None) -> Orbit:
-    """Return the orbit with the smallest residual among the iterates of Newton's method.
+    """Return the orbit with the smallest residual that Newton's method finds from `orbit`.
 
     If `reach` is given, stop at the first converged orbit, or before a state moves by `reach`.
     """
@@ -77,7 +77,7 @@ def newton(orbit, reach=None) -> Orbit:
 
 
 def polish(orbit) -> Orbit:
-    """Return the orbit that multiple shooting finds near an approximate orbit."""
+    """Return the orbit that multiple shooting finds close to a given approximation."""
     maps = orbit.maps
     for _ in range(CUTS):
         phases = segments.cut(orbit, orbit.cycle)

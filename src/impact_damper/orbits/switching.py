@@ -1,7 +1,7 @@
 """Switch to the branches that leave where an orbit loses its symmetry or doubles its period.
 
-The other branch begins in the direction of the eigenvector of the multiplier -1. Newton's method
-corrects orthogonally to this direction, so it does not return to the first branch.
+The other branch begins in the direction of the eigenvector of the multiplier -1. Newton's
+corrections are orthogonal to this direction and therefore do not lead back to the first branch.
 """
 
 from dataclasses import replace
@@ -15,21 +15,21 @@ from impact_damper.orbits.continuation import Point, Problem
 from impact_damper.orbits.grazing import at_height, through_grazing, turns_of, with_gradient
 from impact_damper.orbits.shooting import shoot
 
-# DISTANCES: distances of first guesses from the bifurcation. ASIDE: largest distance of an orbit
-# from its first guess, divided by the distance of the guess from the bifurcation.
+# First guesses lie at each of DISTANCES from the bifurcation. The orbit found may lie ASIDE times
+# this distance away from its first guess.
 DISTANCES, ASIDE = (2e-2, 4e-3, 8e-4, 1e-4, 1e-5), 0.5
-# Search for the other branch near a grazing. SHARES: relative changes of the extremum's height.
-# MISSED: largest relative error of the distance from the bifurcation. REACH: largest such distance.
-# PASSAGES: largest number of orbits from which the branch is followed through the grazing.
+# If these guesses fail, other guesses change the height of an extremum of Z2 (`grazing.Turn`) by
+# SHARES of the height. A guess lies up to REACH from the bifurcation; the orbit's distance differs
+# from this by less than the share MISSED. From PASSAGES orbits at most, a grazing is passed.
 SHARES, MISSED, REACH, PASSAGES = (0.5, 0.2, 0.1, 0.05, 0.02), 0.5, 1e-3, 2
 # Kinds of events at which another branch leaves.
 LEAVING = ("symmetry_breaking", "period_doubling")
-# Largest distance between the last orbit of a branch and the orbit of the branch that it meets.
+# Where a branch meets a more symmetric branch, the orbits of the two are at most this far apart.
 MEETING = 1e-3
 
 
 def other_branch(event, *, stable=False) -> Point | None:
-    """Return a point, a stable one if `stable`, of the branch that leaves at an event; or None."""
+    """Return a point of the branch that leaves at an event, or None. `stable`: a stable point."""
     leaving = _leaving(event)
     doubled = event.kind == "period_doubling"
 
@@ -50,10 +50,10 @@ def other_branch(event, *, stable=False) -> Point | None:
 
 
 def _leaving(event):
-    """Return `Problem`, unknowns and direction of the branch that leaves at an event."""
+    """Return the `Problem`, first unknowns and direction of the branch that leaves at an event."""
     point, problem = event.point, event.point.problem
     doubled = event.kind == "period_doubling"
-    # After `problem.cycle` the state is multiplied by `sign`, and the deviation by -`sign`.
+    # One `problem.cycle` later, the orbit is multiplied by `sign` and the deviation by -`sign`.
     sign, size = (1 if doubled else -1), 4 if problem.damped else 2
     factors = point.orbit.factors[:, :size, :size].copy()
     factors[-1] *= -1
@@ -71,7 +71,7 @@ def _leaving(event):
 
 
 def _at_distance(leaving, distance):
-    """Return the point of the other branch at a distance from the bifurcation, or None."""
+    """Return the point of the new branch at a distance from the bifurcation, or None."""
     problem, x, direction = leaving
     guess = x + distance * direction
     near = problem.correct(guess, direction)
@@ -80,7 +80,7 @@ def _at_distance(leaving, distance):
 
 
 def _at_heights(leaving):
-    """Yield points of the other branch, at several heights of the extremum that grazes first."""
+    """Yield points of the new branch, at several heights of the extremum that grazes first."""
     problem, x, direction = leaving
     # Search only the first half of the segments. The second half has the same extrema.
     half = (len(problem.phases) - 1) // 2 if problem.damped else 0
@@ -104,19 +104,19 @@ def _at_heights(leaving):
             yield found[0]
 
 
-# WHOLE: periods of branches from which unstable branches are followed too. From other branches only
-# stable branches of a period up to STABLE are followed. MET: longest period of a branch from whose
-# ends a branch of more symmetry is followed.
+# From a branch whose period is in WHOLE, stable and unstable branches are followed. From others,
+# only branches that begin stable, with a period up to STABLE. If a branch of a period up to MET
+# ends at a branch of symmetric orbits or of half the period, this branch is followed too.
 WHOLE, STABLE, MET = (1, 3), 9, 4
-# The end of a branch lies at an event if end and event differ by less than SAME_VALUE in the
-# parameter and SAME_SIZE in max |Z1|. Such an end is a fold, located with an error up to 1e-7.
+# A branch ends at an event if the end differs from the event by less than SAME_VALUE in the
+# parameter and SAME_SIZE in max |Z1|. The end is known only to within 1e-7, because it is a fold.
 SAME_VALUE, SAME_SIZE = 1e-6, 1e-4
-# Largest difference of the parameter between equal bifurcations.
+# Bifurcations are equal if their parameters differ by less than NEAR.
 NEAR = 1e-9
 
 
 def follow_others(branches, follow):
-    """Append to `branches` branches that leave at an event, or that a branch meets at its end."""
+    """Append to `branches` further branches, found at events and ends of the known branches."""
     for branch in branches:
         for edge in (0, -1):
             point = _more_symmetric(branches, branch, edge)
@@ -129,7 +129,7 @@ def follow_others(branches, follow):
 
 
 def _more_symmetric(branches, branch, edge):
-    """Return the point where the end of a branch meets a new branch of more symmetry, or None."""
+    """Return the point of a new, more symmetric branch at which a branch ends, or None."""
     kind, point = branch.ends[edge], branch.points[edge]
     orbit, symmetric = point.orbit, kind == "symmetry_breaking"
     if kind not in LEAVING or orbit.periods > MET:
@@ -147,8 +147,8 @@ def _more_symmetric(branches, branch, edge):
 def _new_branch(branches, branch, place, event):
     """Return a point of a new branch that leaves at an event, or None.
 
-    If the period of `branch` is in WHOLE, a period doubling must lie next to stable orbits.
-    Otherwise the new branch must begin stable, next to stable orbits, with a period up to STABLE.
+    A period doubling must lie next to stable orbits. If the period of `branch` is not in WHOLE,
+    each event must, and the new branch must begin stable and have a period up to STABLE.
     """
     ends = {0: branch.ends[0], len(branch.points) - 1: branch.ends[1]}
     if event.kind not in LEAVING or ends.get(place) == event.kind:
@@ -169,7 +169,7 @@ def _new_branch(branches, branch, place, event):
 
 
 def ends_at(branches, number, edge, event):
-    """Return whether an end of a branch lies at an event of a branch of more symmetry."""
+    """Return whether the branch `number` ends at an event of a more symmetric branch."""
     branch = branches[number]
     if branch.ends[edge] != event.kind or event.kind not in LEAVING:
         return False
@@ -183,7 +183,7 @@ def ends_at(branches, number, edge, event):
 
 
 def met_by(branches, number, edge):
-    """Return the index of the branch that a branch meets at the end `edge` (0 or 1), or -1."""
+    """Return the index of the branch at which the branch `number` ends (`edge` 0 or 1), or -1."""
     for other, candidate in enumerate(branches):
         if other == number:
             continue
@@ -193,7 +193,7 @@ def met_by(branches, number, edge):
 
 
 def _passes(branch, kind, point):
-    """Return whether a branch passes through a point, or has an event of a kind at this point."""
+    """Return whether a branch passes through a point, or has an event of `kind` there."""
     periods = point.orbit.periods
     there = [each.point for _, each in branch.events if each.kind == kind]
     near = any(abs(each.value - point.value) < NEAR for each in there)
