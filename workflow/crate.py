@@ -250,7 +250,7 @@ def run_of(project, paths, jobs):
 
 
 def crate(root, results, paths):
-    """Return the metadata of a crate with the files `paths`, and how many jobs made files."""
+    """Return the metadata of a crate with the files `paths`, and the number of jobs."""
     jobs = jobs_of(root, set(paths))
     read, made = (
         {path for job in jobs.values() for path in job[key]} for key in ("input", "output")

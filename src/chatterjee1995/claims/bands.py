@@ -47,7 +47,7 @@ def _growth(series, width):
 
 
 def _remaining(datasets, names):
-    """Return max |Z1| of the quiet orbit at Wp over max |Z1| of the free resonance, by design."""
+    """Return for each design how large its quiet orbit at Wp is, relative to the free resonance."""
     return [
         float(reading.design_point(orbit).orbit_displacement)
         / orbits.resonance_fold(orbits.free_of(datasets, orbit))[1]

@@ -18,7 +18,7 @@ NOT_DECIDABLE = "not decidable"
 
 
 def part(share, digits=2) -> str:
-    """Return a share in words that "of the" can follow: "all", "none" or a percentage."""
+    """Return a share as text: "all", "none" or a percentage."""
     return {1.0: "all", 0.0: "none"}.get(float(share)) or percent(share, digits)
 
 
@@ -91,7 +91,7 @@ class Claim:
 
     @property
     def meanings(self) -> dict:
-        """A dict: name of a number that has a bound -> meaning of the number."""
+        """A dict: name of a bounded number -> meaning of the number."""
         texts = {**self.required, **self.full_agreement}
         return {Bound.read(bound).name: words for bound, words in texts.items() if words}
 

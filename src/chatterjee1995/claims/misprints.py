@@ -17,7 +17,7 @@ SHALLOW = 0.02  # largest ratio of penetration to clearance at which the expansi
 
 
 def misrounding(printed, computed):
-    """Return |printed - computed| in half units of the last digit; above 1 it is misrounded."""
+    """Return the error of a printed number in half units of its last digit: 1 is still right."""
     decimals = len(f"{printed:g}".partition(".")[2])
     return abs(printed - computed) * 2 * 10**decimals
 

@@ -136,7 +136,7 @@ def contact_model(datasets):
 
 
 def _duration(restitution):
-    """Return how long a contact without load lasts, relative to an elastic contact."""
+    """Return how long a contact without other forces lasts, relative to an elastic contact."""
     return 1 / math.sqrt(1 - damping_ratio(restitution) ** 2)
 
 

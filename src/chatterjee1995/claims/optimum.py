@@ -36,7 +36,7 @@ def excess(datasets):
 
 
 def _sweeps(datasets, *keys, **fixed):
-    """Group sweeps that have the parameters `fixed` by the values of `keys`; drop lone sweeps."""
+    """Return the sweeps that have the values `fixed`, as a dict: values of `keys` -> sweeps."""
     groups = {}
     for sweep in datasets.get("optimum", {}).values():
         if all(reading.parameter(sweep, key) == value for key, value in fixed.items()):
@@ -48,14 +48,14 @@ def _sweeps(datasets, *keys, **fixed):
 
 
 def _displaced(sweep):
-    """Return max |Z1| at a d0 that is 10 % off the optimum, on the side where it is larger."""
+    """Return max |Z1| at a d0 that is 10 % off the optimum, on the worse side."""
     ends = float(sweep.optimum_clearance) * np.array([1 - AWAY, 1 + AWAY])
     size = np.interp(ends, sweep.clearance, sweep.quiet_displacement, left=np.nan, right=np.nan)
     return float(np.max(size))
 
 
 def _rise(sweep):
-    """Return by which share max |Z1| rises if d0 is 10 % off the optimum."""
+    """Return by which fraction max |Z1| rises if d0 is 10 % off the optimum."""
     return _displaced(sweep) / float(sweep.optimum_displacement) - 1
 
 

@@ -30,7 +30,7 @@ PARAMETERS = {
     "clearance": "Clearance, $d_0$",
     "restitution": "Coefficient of restitution, $e$",
 }
-# Verdict, such as "stable_absent": stable by balance, absent in truth -> text, colour, hatching.
+# Verdict ("stable_absent": stable by harmonic balance, no such orbit) -> text, colour, hatching.
 QUIET = {
     "stable_stable": ("rightly called stable", style.PALE_SKY, ""),
     "stable_unstable": ("called stable, orbit is unstable", style.VERMILION, "////"),
@@ -91,7 +91,7 @@ def _draw_errors(axes, harmonics, measure):
 
 
 def _guide(data, at):
-    """Return a line with the predicted slope, 3 times above the errors to leave them visible."""
+    """Return the predicted decrease as a line, 3 times above the errors to leave them visible."""
     highest, error = data["highest_harmonic"].values, at["series_error"].values
     used = (highest >= data["asymptotic_harmonic"].item()) & (error > ROUNDING)
     if not used.any():
@@ -128,7 +128,7 @@ def _title(data, short=False):
 
 @style.context()
 def draw_balance_map(*, balance_map):
-    """Draw where harmonic balance is right on the quiet motion (a) and the violent one (b)."""
+    """Draw where harmonic balance is right about the quiet motion (a) and the violent one (b)."""
     (data,) = balance_map
     drawn = style.figure("double", 5.6)
     quiet, violent = drawn.subplots(1, 2, sharex=True, sharey=True)

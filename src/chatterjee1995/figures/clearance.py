@@ -41,7 +41,7 @@ def draw_optimum(*, optimum):
 
 @style.context()
 def draw_design_rules(*, design_rules):
-    """Draw best clearances and rules for them over each parameter, and the errors of the rules."""
+    """Draw best clearances and rules over each parameter, and the errors of the rules."""
     swept = [[name for name in SWEPT if data.sizes[name] > 1] for data in design_rules]
     sweeps = [
         (d, names[0]) for d, names in zip(design_rules, swept, strict=True) if len(names) == 1

@@ -80,7 +80,7 @@ def inelastic_model():
 
 
 def place(u, v, level):
-    """Map points of a plane to the sheet (n, 2); u points to the right, v into the page."""
+    """Return points of a plane as points (n, 2) of the sheet; u to the right, v into the page."""
     u, v = np.broadcast_arrays(np.atleast_1d(u), v)
     return np.column_stack((0.25 + u + 0.5 * v, level + 0.6 * v))
 

@@ -98,7 +98,7 @@ def coexisting(part, column):
 
 
 def crossings(part, frequency) -> pd.DataFrame:
-    """Interpolate pieces at frequencies. Return a row for each frequency and piece around it."""
+    """Interpolate pieces at given frequencies. A row of the table is one piece at one frequency."""
     frequency = np.atleast_1d(np.asarray(frequency, float))
     inside = frequency[:, None] >= part.lower.to_numpy()
     inside &= frequency[:, None] <= part.upper.to_numpy()
@@ -181,7 +181,7 @@ def high_counterparts(design, branches, free) -> pd.DataFrame:
 
 
 def subharmonic(free):
-    """Return the pieces of the free subharmonic, its widest branch, or raise Missing."""
+    """Return the pieces of the free subharmonic with the widest range of W, or raise Missing."""
     part = pieces(free)
     third = part[(part.period == 3) & (part.asymmetry < SYMMETRIC)]
     if third.empty:

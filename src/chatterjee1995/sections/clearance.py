@@ -78,7 +78,7 @@ class DesignRules(system.WithOscillator):
 
 
 def axis(name):
-    """Return the type of an axis of the grid: one number, or a range with a key `points`."""
+    """Return the type of a key for a grid axis: one number, or a range with a key `points`."""
     several = system.range_of(system.PARAMETERS[name], points=True)
     return number_or_range(
         several, f"{system.MEANINGS[name]}, one value or an even range", **system.BOUNDS[name]

@@ -25,7 +25,7 @@ class Stage(NamedTuple):
 
 
 def stage(function, message, **options):
-    """Make a method of a section a stage (decorator), by default with the name of the method."""
+    """Return a decorator that makes a method of a section a stage, by default of the same name."""
 
     def mark(job):
         job.stage = {"name": job.__name__, "function": function, "message": message} | options
@@ -65,6 +65,6 @@ class Kind(Shown):
 
     room = "figures"
     most: int = 6  # largest number of entries in a figure
-    # Whether the curves to draw must have a damper (True) or none (False). If True, a figure of
-    # `branches` also draws the branches of the same oscillators without a damper.
+    # Whether the curves to draw must have a damper (True) or none (False). If True, a figure that
+    # reads `branches` also draws the branches of the same oscillators without a damper.
     damper: bool = True

@@ -160,7 +160,7 @@ def damper_values(entry, config) -> dict:
 
 
 def too_many(path, section, keys):
-    """Yield an error line if the product of the values at `keys` is too large (lists: lengths)."""
+    """Yield an error line if the values at `keys` ask for too many runs. Lists count by length."""
     counts = []
     for key in keys:
         value = section

@@ -14,12 +14,12 @@ EXITS = {
 
 
 def _count(values, meaning):
-    """Return how many values of a flag have a meaning."""
+    """Return how many of the flags `values` mean `meaning`."""
     return int(np.sum(decode(values) == meaning))
 
 
 def contact_model(datasets) -> pd.DataFrame:
-    """Return a table of rules by which a contact ends: verdicts in map cells, unloaded contacts."""
+    """Return a table of both rules by which a contact can end, with counts of map cells."""
     rows = []
     for name, data in datasets.get("contact_model", {}).items():
         for rule in data.exit_rule.values:

@@ -21,7 +21,7 @@ WORDS = {
 
 
 def models(datasets) -> pd.DataFrame:
-    """Return a table of the cheapest accurate run of each method on each scene, or its best run."""
+    """Return a table with one run of each method on each scene: cheapest accurate run, or best."""
     rows = []
     for name, data in datasets.get("accuracy", {}).items():
         asked = parameters_of(data)["accuracy"]

@@ -162,7 +162,7 @@ def _subharmonic(name, damper, data):
 
 
 def _stable_part(part):
-    """Return period, range of W and size of the stable part of a branch, and its label."""
+    """Return the label of a branch, and the period, range of W and size of its stable part."""
     return {
         "branch": f"{part.branch.iloc[0] + 1}",
         "period": part.period.iloc[0],
