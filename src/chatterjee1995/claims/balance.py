@@ -111,7 +111,7 @@ def _elastic_orbits(datasets):
 
 
 def design_multipliers(datasets):
-    """Return the largest |multiplier| of the quiet orbit at Wp, for each design of figure 3."""
+    """Return the largest modulus of the multipliers of each quiet orbit at Wp, figure 3."""
     followed = reading.select(datasets, "design_orbit", ALL_DESIGNS)
     return np.array([reading.largest_multiplier(reading.design_point(each)) for each in followed])
 

@@ -60,7 +60,7 @@ def _scanned(datasets, case):
 
 
 def _nearest_range(decides, frequency):
-    """Return first and last W of the range nearest to `frequency` in which `decides[W]` is true."""
+    """Return the ends of the range of W with `decides` true that is nearest to `frequency`."""
     scanned = list(decides)
     ends = [
         (scanned[first], scanned[last - 1]) for first, last in runs_of_true(list(decides.values()))

@@ -163,7 +163,7 @@ def _cells(question, balance, truth, count, total):
 
 
 def _summary(data):
-    """Yield rows on chaotic violent motions, and on cells that balance rightly calls stable."""
+    """Yield rows on chaotic violent motions, and on cells rightly called stable."""
     kinds = decode(data["high_run_motion"])
     chaotic = np.sum(kinds == "high_chaotic")
     settled = np.sum(kinds == "high")

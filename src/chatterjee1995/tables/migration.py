@@ -58,7 +58,7 @@ def _destination(motion):
 
 
 def release_scan(datasets) -> pd.DataFrame:
-    """Return a table of scans: to which free motions releases lead at which W."""
+    """Return a table of scans: the free motions to which releases lead, with ranges of W."""
     rows = []
     for name, scan in datasets.get("release_scan", {}).items():
         ends = list(scan.free_motion.values)
