@@ -1,9 +1,9 @@
-"""Template (see `step`): acceleration across, which is Z2'' - Z1'' without the force of a wall.
+"""Template (see `step`): Z2'' - Z1'' without the wall's force, called the acceleration across.
 
-The acceleration across is DRAW - BASE A cos(W T), with the amplitude A of the forcing. DRAW is
-gravity along the gap plus the friction of sliding, per unit of loose mass. BASE is 1 if the base
-moves, otherwise 0. Z1 is measured from the base. SWAY is the double integral over time of the
-acceleration across, from the beginning of the step.
+The acceleration across (the gap) is DRAW - BASE A cos(W T). A is the amplitude of the forcing. DRAW
+is gravity along the gap plus the friction of sliding, per unit of loose mass. BASE is 1 if the base
+moves, otherwise 0. Z1 is measured from the base. SWAY is the acceleration across, integrated twice
+over time from the beginning of the step.
 """
 
 # Phase angle x (rad) below which (x - sin x) / x^3 is computed from its Taylor series.
@@ -11,21 +11,21 @@ SMALL = 0.5
 
 
 def is_outside(a, i):
-    """Return whether a flight begins behind a wall's surface (|Z2| > d0), without sticking."""
+    """Return whether a flight begins at |Z2| > d0, behind a wall's surface, without sticking."""
     return abs(a[Y2 + i]) > a[CLEARANCE + i] and a[STUCK + i] == 0.0
 
 
 def load_across(a):
-    """Compute ACROSS, the acceleration across as a step begins, and MOST, a bound on its modulus.
+    """Compute ACROSS, the acceleration across (see above) at the beginning of a step.
 
-    SWAYS is the number of lanes in which an acceleration across acts.
+    In the step its modulus is at most MOST. SWAYS is the number of lanes in which it acts at all.
     """
     acting = 0
     rough = 0
     for i in range(LANES):
         acting += 1 if abs(a[GRAVITY + i]) + a[BASE + i] + a[FRICTION + i] > 0.0 else 0
         rough += 1 if a[FRICTION + i] > 0.0 else 0
-    # If no acceleration across acts now, and none acted in the last step, the rows are 0 already.
+    # If the acceleration across is 0 now and was 0 in the last step, its rows are 0 already.
     if acting > 0 or a[SWAYS] > 0.0:
         for i in range(LANES):
             a[DRAW + i] = a[GRAVITY + i]
@@ -45,7 +45,7 @@ def load_across(a):
 
 
 def find_sway(a):
-    """Compute SWAY and its first three derivatives at T. Do nothing if SWAYS is 0."""
+    """Compute SWAY and the first three derivatives of SWAY at T. Do nothing if SWAYS is 0."""
     if a[SWAYS] > 0.0:
         for i in range(LANES):
             a[ANGLE + i] = 0.5 * a[FREQUENCY + i] * a[T + i]
@@ -72,14 +72,14 @@ def find_sway(a):
 
 
 def flight_values(a):
-    """Compute Z1, SWAY and their derivatives at T. `contact.loose_mass` then gives Z2."""
+    """Compute Z1, SWAY and their derivatives at T, which `contact.loose_mass` needs."""
     flight_slope(a)
     flight_curve(a)
     find_sway(a)
 
 
 def penetration_values(a):
-    """Compute SWAY, Z1, the depth Z2 -+ d0 and the derivatives of all three at T."""
+    """Compute Z1, SWAY, the depth in the wall, and their derivatives at T."""
     find_sway(a)
     contact_values(a)
 
@@ -87,10 +87,10 @@ def penetration_values(a):
 def find_return(a):
     """Find the first contact in [0, T] in lanes whose loose mass begins behind a wall's surface.
 
-    If f = q + LAG q' rises to zero at a depth q > 0, a contact begins there, and MODE becomes
-    MET_DEEP. Other contacts begin at a wall's surface, and MODE becomes MET. WALL, T, END_Z1 and
-    END_Z1_SLOPE are set as in `find_contact`. No search is needed if f certainly falls and the
-    other wall is out of reach. f falls if -q' exceeds LAG times a bound on |q''|.
+    Let q be the depth behind the surface. If f = q + LAG q' rises to zero while q > 0, the wall
+    pushes again: MODE becomes MET_DEEP. If a contact begins at a surface, MODE becomes MET. WALL,
+    T, END_Z1 and END_Z1_SLOPE are set as in `find_contact`. No search is needed if f certainly
+    falls (-q' exceeds LAG times a bound on |q''|) and the other wall is out of reach.
     """
     flight_bound(a)
     flight_jerk(a)
@@ -124,7 +124,7 @@ def find_return(a):
 
 
 def step_outside(a, i, t):
-    """Do one step of the search of `find_return` at time t. Return the next time and next mode."""
+    """Continue the search of `find_return` at time t. Return the next time and the next mode."""
     wall, lag, bound = a[WALL + i], a[LAG + i], a[BOUND + i]
     clearance = a[CLEARANCE + i]
     z, w = loose_mass(a, i, t)
@@ -132,7 +132,7 @@ def step_outside(a, i, t):
     slope = wall * w
     f = q + lag * slope
     rise = slope + lag * wall * (a[Z1_CURVE + i] + a[SWAY_CURVE + i])
-    # `fine` is the rounding error of q and f. It includes the rounding errors of Z1 and Z1'.
+    # `fine` is the rounding error of q and f, including the rounding errors of Z1 and Z1'.
     fine = abs(a[Y0 + i]) + clearance + lag * (abs(a[Y1 + i]) + abs(slope))
     fine *= ROUNDING
     bent = bound + lag * a[JERK_BOUND + i]
@@ -140,7 +140,7 @@ def step_outside(a, i, t):
     deep = safe_advance(-q, slope, bound) if q <= fine else 0.0
     pressed = safe_advance(-f, rise, bent) if f <= fine else 0.0
     across = safe_advance(2.0 * clearance + q, -slope, bound)
-    # If f is positive and falls at t = 0, f is a rounding error: this flight begins at f = 0.
+    # The flight begins at f = 0. If f is positive and falls at t = 0, f is a rounding error.
     pushes = rise > 0.0 or (f > fine and t > 0.0)
     here = q >= -fine and f >= -fine and (q > fine or slope > 0.0) and pushes
     other = 2.0 * clearance + q <= fine and slope < 0.0

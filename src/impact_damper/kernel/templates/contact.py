@@ -1,6 +1,6 @@
 """Template (see `step`): search for the beginning of a contact within a flight."""
 
-# Upper bound on (t - t^k)/k for t in [0, 1] and all powers k >= 2. The maximum is 0.1283, at k = 3.
+# Upper bound on (t - t^k)/k for 0 <= t <= 1 and k = 2, 3, ... The maximum is 0.1283, at k = 3.
 SAG = 0.13
 
 
@@ -12,7 +12,7 @@ def loose_mass(a, i, t):
 
 
 def first_guess(a, i):
-    """Return the estimated time of a contact: the root of the distance's series up to order 2."""
+    """Estimate the time of a contact from the distance to the wall, speed and acceleration."""
     distance = min(a[CLEARANCE + i], FAR) - a[WALL + i] * a[Y2 + i]
     speed = abs(a[Y3 + i])
     bend = a[WALL + i] * (a[G + i] + a[ACROSS + i])
@@ -34,8 +34,9 @@ def distance_ahead(a, i, t):
 def expect_contact(a):
     """In lanes in which a contact is expected, move T from LENGTH to the contact's expected time.
 
-    Three terms of the series of Z2 decide whether a contact is expected. Half of the terms of Z1
-    give the expected time. So the processor need not wait for the last coefficients.
+    A contact is expected if three terms of the series of Z2 give a place behind a wall at LENGTH.
+    The expected time follows from half of the terms of Z1. So the processor need not wait for the
+    last coefficients.
     """
     expected = 0
     for i in range(LANES):
@@ -51,10 +52,7 @@ def expect_contact(a):
 
 
 def guess_contact(a):
-    """Set T to the expected time of a contact if MODE is BRACKET and this time is before LENGTH.
-
-    In all other lanes set T to LENGTH.
-    """
+    """Set T to the expected time of a contact, or to LENGTH if none is expected before LENGTH."""
     for i in range(LANES):
         a[T + i] = min(first_guess(a, i), a[LENGTH + i])
     flight_early(a)
@@ -70,21 +68,22 @@ def find_contact(a):
     """Move T to the first time in [0, T] at which |Z2| reaches the clearance from inside.
 
     If there is such a time, MODE becomes MET, and WALL becomes the wall in contact. If there is
-    certainly no such time, MODE becomes MISSED, and T keeps its value. If APART > 0, MODE becomes
-    MISSED too: the loose mass sticks, or begins the flight behind a wall's surface. Before the call
-    END_Z1 and END_Z1_SLOPE must hold Z1 and Z1' at T. If T changes, so do END_Z1 and END_Z1_SLOPE.
-    T < LENGTH means that a contact is expected at T (`expect_contact`), or slightly later.
+    certainly no such time, MODE becomes MISSED, and T keeps its value. MODE also becomes MISSED if
+    APART > 0: the loose mass sticks, or begins the flight behind a wall's surface. Before and after
+    the call END_Z1 and END_Z1_SLOPE hold Z1 and Z1' at T. If T < LENGTH before the call, a contact
+    is expected at T (`expect_contact`) or slightly later.
 
     Bounds decide most flights without a search. `change` is a bound on the change of Z2' in the
-    flight. The wall ahead is the wall to which Z2' points at the beginning.
+    flight. The wall ahead is the wall that the loose mass approaches at the beginning.
 
-    - `clear`: the chord is the straight line between Z2 at both ends of the flight. Z2 deviates
-      from the chord by at most `sag`. If both ends are more than `sag` away from the wall ahead,
-      Z2 does not meet this wall.
-    - `left`: the chord gives a lower bound on the distance to the other wall. Z2' at the beginning
-      and `change` give another. If the mean of both bounds is positive, Z2 does not meet this wall.
-    - `certain`: at each end Z2' and `change` give a lower bound on the speed to the wall ahead.
-      If the mean of both bounds is positive, Z2 can meet only the wall ahead, and only once.
+    - `clear`: Z2 deviates from a straight line between both ends of the flight by at most `sag`. If
+      both ends are more than `sag` away from the wall ahead, the loose mass does not reach it.
+    - `left`: the straight line gives a lower bound on the distance to the other wall. The first Z2'
+      and `change` give a second lower bound. If the mean of both bounds is positive, the loose mass
+      does not reach the other wall.
+    - `certain`: the first Z2' and `change` give a lower bound on the speed to the wall ahead. The
+      last Z2' and `change` give a second lower bound. If the mean of both bounds is positive, the
+      loose mass can reach only the wall ahead, and only once.
     """
     undecided = 0
     expected = 0
@@ -118,7 +117,7 @@ def find_contact(a):
 
 
 def meet_expected(a):
-    """Do one iteration for contacts expected at T. Return how many lanes are still undecided."""
+    """Improve the time of expected contacts once. Return how many lanes are still undecided."""
     flight_curve(a)
     find_sway(a)
     undecided = 0
@@ -140,10 +139,10 @@ def meet_expected(a):
 def exclude_contacts(a):
     """Set MODE to MISSED in lanes whose loose mass certainly meets no wall in [0, T].
 
-    Return the number of lanes that are still undecided. Let P(s) be the cubic polynomial with the
-    values and slopes of Z2 at 0 and T. |Z2(s T) - P(s)| is at most 16 `most` s^2 (1 - s)^2, where
-    `most` = T^4 max|Z2''''| / 384. Each half of P lies between its Bernstein coefficients. For Z2 a
-    coefficient grows by at most `most` at s = 1/2, 4/3 `most` next to s = 1/2, and 0 elsewhere.
+    Return how many lanes are still undecided. A cubic polynomial with the values and slopes of Z2
+    at 0 and T deviates from Z2 by at most `most` = T^4 max|Z2''''| / 384. Each half of the cubic
+    lies between its Bernstein coefficients. The coefficients become bounds on Z2 if the one in the
+    middle is enlarged by `most`, and its neighbours by 4/3 `most`.
     """
     flight_snap(a)
     undecided = 0
@@ -197,11 +196,11 @@ def search_contact(a):
                 upper = safe_advance(clearance - z, w, bound)
                 lower = safe_advance(clearance + z, -w, bound)
                 wall = 1.0 if upper < lower else -1.0
-                # If Z2 leaves a wall, the distance is only a rounding error for a time `shortest`.
+                # When the loose mass leaves a wall, the distance is at first a rounding error.
                 shortest = math.sqrt(8.0 * fine / (bound + TINY))
                 receding = max(shortest, ROUNDING * t) if wall * w <= 0.0 else 0.0
                 ahead = max(min(upper, lower), receding)
-                # A loose mass at rest on a wall does not approach the wall: no contact begins at t.
+                # No contact begins at t if the loose mass rests on a wall and does not approach it.
                 t, mode = march_step(
                     t, clearance - wall * z, wall * w > 0.0, ahead, a[LENGTH + i], fine
                 )

@@ -1,10 +1,10 @@
 """Template (see `step`): cosine and sine of the forcing's phase at the beginning of a step."""
 
-# QUARTER + QUARTER_REST is pi/2. QUARTER has few binary digits: its integer multiples are exact.
+# QUARTER + QUARTER_REST is pi/2. QUARTER has few binary digits, so that its multiples are exact.
 QUARTER = 1.5707963267341256
 QUARTER_REST = 6.077100506506192e-11
-# Largest change of phase (rad) over which `forcing` only corrects COSINE and SINE. The correction
-# uses the addition theorem, and the series of cos and sin of the change up to third order.
+# If the phase has changed by less than NEAR (rad), `forcing` only corrects COSINE and SINE, by the
+# addition theorem. The cosine and sine of the change are series up to third order.
 NEAR = 1e-4
 
 
@@ -34,7 +34,7 @@ def find_circle(a):
 
 
 def find_forcing(a):
-    """Compute COSINE = A cos(W KNOWN) and SINE = A sin(W KNOWN). A is the forcing's amplitude."""
+    """Compute COSINE = A cos(W t) and SINE = A sin(W t) at the time t = KNOWN. A is F + U W^2."""
     for i in range(LANES):
         a[ANGLE + i] = a[FREQUENCY + i] * a[KNOWN + i]
     find_circle(a)
@@ -45,9 +45,9 @@ def find_forcing(a):
 
 
 def forcing(a):
-    """Compute COSINE = A cos(W TIME) and SINE = A sin(W TIME). A is the forcing's amplitude.
+    """Compute COSINE = A cos(W t) and SINE = A sin(W t) at the time t = TIME. A is F + U W^2.
 
-    With one lane, COSINE and SINE are only corrected if KNOWN, their time, is close to TIME.
+    With one lane, COSINE and SINE at the time KNOWN are only corrected if KNOWN is close to TIME.
     """
     t = a[FREQUENCY] * (a[TIME] - a[KNOWN])
     if LANES > 1 or not abs(t) < NEAR:
@@ -62,9 +62,9 @@ def forcing(a):
 
 
 def look_ahead(a):
-    """With one lane, compute COSINE and SINE at TIME + T, the expected end of the step.
+    """With one lane, compute COSINE and SINE already at TIME + T, the expected end of the step.
 
-    The processor computes them while it waits for other results of the step.
+    The processor has time for this while it waits for other results of the step.
     """
     if LANES == 1:
         a[KNOWN] = a[TIME] + a[T]

@@ -6,7 +6,7 @@ both masses move together. Let g be Z1'' without the loose mass. Then
 
     (1 + rm) Z1'' = g - rm (GRAVITY - BASE A cos(W T))
 
-While the loose mass sticks, the friction per unit of loose mass is below FRICTION in modulus.
+The loose mass sticks as long as the friction needed is below FRICTION, per unit of loose mass.
 """
 
 
@@ -37,7 +37,7 @@ def load_friction(a):
 
 
 def wall_force(a, i):
-    """Return the wall's force, per primary mass, at the beginning of a step. It is 0 in flight."""
+    """Return the wall's force, per primary mass, at the beginning of a step; 0 in flight."""
     wall = a[SIDE + i]
     depth = a[Y2 + i] - wall * a[CLEARANCE + i]
     force = a[CONTACT_STIFFNESS + i] * depth + a[DASHPOT + i] * a[Y3 + i]
@@ -45,10 +45,10 @@ def wall_force(a, i):
 
 
 def hold(a):
-    """In lanes whose loose mass sticks, replace parameters, because both masses move as one body.
+    """Change parameters in lanes whose loose mass sticks, since both masses move as one body.
 
-    Parameters of the damping and of the spring are divided by 1 + rm. The last two of HELD_ROWS are
-    stiffness and dashpot of the wall. Both become 0, because the force of the wall is constant.
+    The parameters of damping and spring are divided by 1 + rm. The stiffness and the dashpot of the
+    wall (the last two of HELD_ROWS) become 0, because the force of the wall is constant.
     """
     for k in range(len(HELD_ROWS)):
         row, free = HELD_ROWS[k], FREE_ROWS[k]
@@ -71,7 +71,7 @@ def let_go(a):
 
 
 def load_rates(a):
-    """With one lane, compute the rows of the constant series h/k and D/k again."""
+    """With one lane, compute the constant series H and D again."""
     if LANES == 1:
         for k in range(max(FLIGHT_ORDER, CONTACT_ORDER) - 1):
             a[H + k] = a[DAMPING] * (1.0 / max(k, 1))
@@ -100,8 +100,8 @@ def series_held(a, touching):
 def find_turn(a, touching):
     """Find the first turn or slip before T. `touching` says whether the step is in contact.
 
-    At a turn Z2' of a sliding loose mass is 0. At a slip a sticking loose mass begins to slide. In
-    lanes with a turn or slip MODE becomes TURNED, and T, END_Z1, ... belong to the turn or slip.
+    At a turn a sliding loose mass stops (Z2' = 0). At a slip a sticking loose mass begins to slide.
+    In both cases MODE becomes TURNED, T becomes the time of the event, and END_Z1, ... are set.
     """
     if touching:
         contact_jerk(a)
@@ -130,7 +130,7 @@ def find_turn(a, touching):
 
 
 def step_to_turn(a, i, touching):
-    """Move T of lane i to the next time of the search of `find_turn`, or end the search."""
+    """Continue the search of `find_turn` in lane i: move T to the next time, or end the search."""
     t, bound = a[T + i], a[BOUND + i]
     stuck = a[STUCK + i] > 0.0
     if touching:
@@ -172,12 +172,12 @@ def step_to_turn(a, i, touching):
 
 
 def wall_force_held(a, i):
-    """Return the wall's force, per primary mass, on a loose mass that sticks. It is constant."""
+    """Return the wall's force, per primary mass, which is constant while the loose mass sticks."""
     return a[FREE_CONTACT_STIFFNESS + i] * (a[Y2 + i] - a[SIDE + i] * a[CLEARANCE + i])
 
 
 def end_turn(a):
-    """Set Z2' to TINY SLIDE after a slip, and to 0 after a turn or while the loose mass sticks."""
+    """Set Z2' to 0 if the loose mass stops or sticks, and to SLIDE times TINY after a slip."""
     for i in range(LANES):
         slipped = a[STUCK + i] > 0.0 and a[MODE + i] == TURNED
         held = a[STUCK + i] > 0.0 and not slipped
@@ -188,14 +188,14 @@ def end_turn(a):
 
 
 def keep_tangents(a, d):
-    """Call `hold`, which replaces parameters, and store the Z2 of each tangent in KEPT."""
+    """Call `hold`, which changes parameters, and store the Z2 of each tangent in KEPT."""
     hold(a)
     for i in range(TANGENTS):
         d[KEPT + i] = d[2 * TANGENTS + i]
 
 
 def friction_jump(a, d):
-    """Multiply tangents by the saltation matrix of a turn, and undo `keep_tangents`.
+    """Let tangents jump at a turn (saltation matrix), and undo `keep_tangents`.
 
     At the turn friction per unit of loose mass jumps by J. Let b be Z2'' before the turn, and w be
     the tangent's Z2'. The tangent's Z1' jumps by -rm w J/b, and w jumps by -(1 + rm) w J/b. If the

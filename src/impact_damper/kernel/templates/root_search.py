@@ -3,9 +3,9 @@
 In flight f is the distance of the loose mass to a wall. A contact begins at the root of f. In
 contact f is q + LAG q' (`separation`). The contact ends at the root of f. Values of the row MODE:
 
-    MARCH     several roots are possible. A bound on |f''| gives a time within which f cannot
-              vanish. The search advances by such times, so that it never passes the first root.
-    BRACKET   at most one root is possible. A safeguarded iteration of third order finds it.
+    MARCH     several roots are possible. A bound on |f''| gives a time within which f cannot reach
+              zero. The search advances by such times, so that it never passes the first root.
+    BRACKET   at most one root is possible. Chebyshev's method, secured by bisection, finds it.
     ENDING    the search has reached the end of the step without a root.
     MET       the root has been found.
     MISSED    the step certainly contains no root.
@@ -15,8 +15,8 @@ contact f is q + LAG q' (`separation`). The contact ends at the root of f. Value
 
 # Rounding error of an event function, relative to its largest term: 4 units in the last place.
 ROUNDING = 2.0**-50
-# Let r be max(`rate`, 2 / LENGTH), as in `is_last_move`. An iteration in mode BRACKET neglects a
-# term of the size |r move|^3. The iteration ends if |r move|^3 <= LAST_MOVE times the tolerance.
+# An iteration in mode BRACKET ends with a move whose estimated error (`is_last_move`) is at most
+# LAST_MOVE times the tolerance.
 LAST_MOVE = 0.01
 MARCH, BRACKET, ENDING, MET, MISSED, MET_DEEP, TURNED = 0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0
 # TINY prevents divisions by zero. FAR replaces infinity, because 0 times infinity is NaN.
@@ -25,10 +25,10 @@ FAR = 1e200
 
 
 def safe_advance(f, closing, bound):
-    """Return a time within which an event function cannot vanish.
+    """Return a time within which an event function f(t) cannot fall to zero.
 
-    `f` is the function's value now, `closing` is -f' now, and `bound` is at least |f''| at all
-    times. The returned time is the first root t of f - closing t - bound t^2/2.
+    `f` is the value now, `closing` is -f' now, and |f''| is at most `bound` at all times. The
+    returned time is the first root t of f - closing t - bound t^2/2.
     """
     f = max(f, 0.0)
     root = math.sqrt(closing * closing + 2.0 * bound * f)
@@ -41,7 +41,8 @@ def march_step(t, f, closing, ahead, length, fine):
     """Return two numbers: the next time and the next mode of a search in mode MARCH.
 
     The event function f has no root between t and t + `ahead`. `closing` says whether f decreases.
-    t is the root if `closing` and (f <= `fine` or t + `ahead` == t). `fine` is f's rounding error.
+    If f decreases, t is the root as soon as f is at most `fine`, its rounding error, or `ahead` is
+    too short to change t.
     """
     met = closing and (f <= fine or t + ahead == t)
     ends = not t + ahead < length
@@ -55,7 +56,7 @@ def chebyshev(first, bend):
 
 
 def is_last_move(a, i, move, rate):
-    """Return whether `move` is the last move of an iteration (see the comment on LAST_MOVE)."""
+    """Return whether `move` is the last move. Its error is about |rate move|^3."""
     turn = max(rate, 2.0 / a[LENGTH + i]) * move
     return abs(turn * turn * turn) <= max(LAST_MOVE * a[TOLERANCE + i], ROUNDING)
 
@@ -67,9 +68,8 @@ def bracketed_step(a, i, t, f, first, bend, rate, fine):
     HIGH is FAR, and at most one root lies between LOW and the end of the step. If a move would
     leave the interval from LOW to HIGH, bisection replaces the move.
 
-    `first` is an estimate of the move to the root, such as a Newton step. The estimate neglects the
-    part `bend` f' of f''. `is_last_move` gets the larger of `rate` and |`bend`|. `fine` is the
-    rounding error of f.
+    `first` is an estimate of the move to the root, such as a Newton step. `bend` is the part of f''
+    that the estimate neglects, divided by f'. `is_last_move` uses `rate`. f has the error `fine`.
     """
     low = a[LOW + i] = t if f > 0.0 else a[LOW + i]
     high = a[HIGH + i] = a[HIGH + i] if f > 0.0 else t
@@ -90,7 +90,7 @@ def bracketed_step(a, i, t, f, first, bend, rate, fine):
 
 
 def store_end(a, i, row, end, move, going):
-    """If `going`, store a function after `move` in the row `end`, and its slope in the next row.
+    """If `going`, store a function after `move`: the value in the row `end`, the slope in the next.
 
     The four rows from `row` on hold the function and its three derivatives before the move.
     """
@@ -103,7 +103,7 @@ def store_end(a, i, row, end, move, going):
 
 
 def store_search(a, i, mode, t, move):
-    """Store T, MODE, Z1 and Z1' of lane i after a move. Return 1 if its search goes on, else 0."""
+    """Store T, MODE, Z1 and Z1' of lane i after a move. Return 1 if the search goes on, else 0."""
     going = a[MODE + i] <= ENDING
     a[T + i] = t
     a[MODE + i] = mode

@@ -1,15 +1,15 @@
 """Template (see `step`): search for the separation, at which a contact ends.
 
-A contact ends when q + LAG q' falls to zero. q is the penetration. With LAG = 0, the paper's rule,
-the wall may pull. With LAG = DASHPOT / CONTACT_STIFFNESS the contact ends when the force is 0.
+A contact ends when q + LAG q' falls to zero. q is the depth of the loose mass in the wall. With
+LAG = 0 (the paper's rule) the wall may pull. With LAG = DASHPOT / CONTACT_STIFFNESS it never pulls.
 """
 
-# Longest step, in natural periods of the contact: LONGEST_DEEPENING if q grows as the step begins,
-# and LONGEST_RETURNING if q falls.
+# Longest step, in natural periods of the contact: LONGEST_DEEPENING if q grows at the beginning of
+# the step, LONGEST_RETURNING if q falls.
 LONGEST_DEEPENING, LONGEST_RETURNING = 0.55, 0.4
-# Largest relative difference between the rate of a contact's phase (`find_separation`) and the
-# natural frequency. The phase then advances by less than 0.55 * 1.25 < 3/4 of 2 pi in a step with
-# growing q at the beginning, else by less than 0.4 * 1.25 = 1/2 of 2 pi: at most one separation.
+# If the phase in `find_separation` advances at a rate within 25 % of the natural frequency, a step
+# contains at most one separation: the phase advances by less than 0.55 * 1.25 < 3/4 revolution if q
+# grows at the beginning, otherwise by less than 0.4 * 1.25 = 1/2 revolution.
 PHASE_MARGIN = 0.25
 
 
@@ -22,16 +22,16 @@ def fast_exp2(y):
 
 
 def time_to_zero(f, slope, natural):
-    """Return about arctan(-n f/slope)/n, n = `natural`: when a harmonic oscillation becomes 0."""
+    """Return about when a harmonic oscillation becomes 0. Its value is f now, its slope `slope`."""
     u = natural * f * (natural * f)
     v = slope * slope
     return -f * (15.0 * v + 4.0 * u) / (slope * (15.0 * v + 9.0 * u))
 
 
 def predict_separation(a):
-    """Compute LENGTH, the NATURAL frequency, and T, the predicted time of separation.
+    """Compute LENGTH, the NATURAL frequency of the contact, and the predicted time T of separation.
 
-    T is at most LENGTH. T needs no series, so the processor need not wait for the coefficients.
+    T is at most LENGTH. The prediction does not wait for the coefficients of the series.
     """
     for i in range(LANES):
         wall = a[SIDE + i]
@@ -45,8 +45,8 @@ def predict_separation(a):
         loss = a[DASHPOT + i] * mobility
         longest = (LONGEST_DEEPENING if w >= 0.0 else LONGEST_RETURNING) * 2.0 * math.pi / natural
         length = min(a[LONGEST + i], longest)
-        # If q = 0, the contact has just begun, and lasts half a damped natural period plus a term
-        # with the mean of g. g is Z1'' without the wall's force. If q is not 0, g is neglected.
+        # If q = 0, the contact has just begun. It lasts half a damped natural period, corrected for
+        # g, which is Z1'' without the wall's force. If q is not 0, g is neglected.
         g = a[COSINE + i] - spring(a, x, i, LANES) - h * v
         slope = spring_slope(a, x, i, LANES)
         drift = -a[FREQUENCY + i] * a[SINE + i] - slope * v - h * g
@@ -69,12 +69,12 @@ def find_separation(a):
     none, T becomes LENGTH and MODE becomes MISSED. END_Z1 and END_Z1_SLOPE receive Z1 and Z1' at T.
     END_DEPTH and END_DEPTH_SLOPE receive the depth Z2 -+ d0 and its slope at T.
 
-    q is the depth times the sign of the wall. q'' = g - n^2 q - D q', with the natural frequency n
-    of the contact and D = DASHPOT (1 + 1/rm). |g| is at most G, the sum of the moduli of its terms.
-    R = (q'^2 + n^2 q^2)^(1/2) grows at most at the rate G and falls at most at the rate G + D R.
-    The largest R gives a bound on |q''|. The phase of (n q, q') has the rate n, with a deviation of
-    at most G/R + D/2. q + LAG q' is zero twice while the phase advances by 2 pi. If the deviation
-    is below PHASE_MARGIN n, the step has at most one root. The mode is then BRACKET.
+    Let q be the depth times the sign of the wall, n the natural frequency of the contact, and
+    D = DASHPOT (1 + 1/rm). Then q'' = g - n^2 q - D q', where |g| is at most a number G. The phase
+    is the angle of the point (n q, q') around the origin, and R is the distance from the origin. R
+    grows at most at the rate G, and falls at most at the rate G + D R. The phase advances at a rate
+    that differs from n by at most G/R + D/2. q + LAG q' is zero twice in a revolution of the phase.
+    If the difference is below PHASE_MARGIN n, the step has at most one root. MODE is then BRACKET.
     """
     penetration_values(a)
     uncertain = 0
@@ -93,7 +93,7 @@ def find_separation(a):
         a[FINE + i] = ROUNDING * (abs(q) + abs(w) * (length + a[LAG + i]))
         a[LOW + i] = 0.0
         a[HIGH + i] = FAR
-        # A loose mass that sticks does not separate, so no search is needed.
+        # A loose mass that sticks does not leave the wall. No search is needed.
         stuck = a[STUCK + i] > 0.0
         a[MODE + i] = ENDING if stuck else (BRACKET if certain else MARCH)
         a[T + i] = length if stuck else (a[T + i] if certain else 0.0)
@@ -131,7 +131,7 @@ def find_separation(a):
 
 
 def bound_lagging(a):
-    """Add LAG times a bound on |q'''| to BOUND. BOUND is then a bound on |(q + LAG q')''|."""
+    """Change BOUND from a bound on |q''| into a bound on the second derivative of q + LAG q'."""
     lagging = 0
     for i in range(LANES):
         lagging += 1 if a[LAG + i] > 0.0 else 0

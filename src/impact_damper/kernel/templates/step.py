@@ -1,41 +1,41 @@
 """One Taylor step of the integration, for one trajectory or several side by side.
 
-The trajectories of a step are all in flight or all in contact. The step of a trajectory ends at the
-next event or before. Events: a contact begins or ends, or the loose mass stops or begins to slide.
+The trajectories of a step are all in flight or all in contact. A trajectory's step ends at the next
+event or before. Events: a contact begins or ends, or the loose mass stops or begins to slide.
 
 The files in this folder are templates. `instances.instance` joins them into one module. A module
 has a fixed number of lanes. Each lane holds one trajectory. The module begins with imports,
-constants, and the functions that `instances.Source` writes. The array `a` holds the numbers of
-trajectories, the array `d` the numbers of tangents. A name in capitals, such as Y0, is the index in
-`a` at which a row begins: a[Y0 + i] belongs to lane i. `instances` describes the rows.
+constants, and the functions that `instances.Source` writes. The array `a` holds all numbers of the
+trajectories, the array `d` all numbers of their tangents. A name in capitals, such as Y0, is the
+index in `a` at which a row begins: a[Y0 + i] belongs to lane i. `instances` describes the rows.
 """
 
 # The 64 bits of the float 1.0, read as an integer.
 ONE = 1023 << 52
-# Largest ratio of a series' last terms to tolerance times SCALE, which is max(1, |Z1|, |Z1'|, ...).
-# Contacts amplify errors, but with 0.05 errors of settled motions are below 10 times the tolerance.
+# A step is chosen so that its last terms are below SAFETY * tolerance * max(1, |Z1|, |Z1'|, ...).
+# Contacts amplify errors. With 0.05 the errors of settled motions are below 10 times the tolerance.
 SAFETY = 0.05
 # A flight is shortened if its last terms exceed EXCESS times `largest_tail`. With EXCESS = 1 many
 # flights would be shortened, because `predict_length` is not exact.
 EXCESS = 4.0
-# Longest flight, in units of LAG, that begins behind a wall's surface at rest, at |Z2| > d0. In the
-# time LAG the penetration of an unloaded wall falls to 1/e of its value.
+# A flight that begins at |Z2| > d0, before the released wall is back in place, lasts at most
+# OUTSIDE times LAG. In the time LAG the wall's displacement falls to 1/e of its value.
 OUTSIDE = 2.0
-# Largest distance from a wall, divided by d0, at which a flight of length 0 ends in contact.
+# A flight too short to change TIME ends in contact if the wall is nearer than NEAREST times d0.
 NEAREST = 1e-9
 
 
 def largest_tail(a, i):
-    """Return the largest modulus that the last terms in the series of a velocity may have."""
+    """Return how large the last terms in the series of a velocity may be."""
     return SAFETY * a[TOLERANCE + i] * a[SCALE + i]
 
 
 def limit_length(a, series, order, excess):
     """Shorten LENGTH so that the last two terms of a velocity's series are below `largest_tail`.
 
-    Only lanes whose TAIL exceeds `excess` times `largest_tail` are changed. For the last and the
-    last but one coefficient c[k] the limit of LENGTH is (`largest_tail` / |k c[k]|)^(1/(k-1)).
-    `branches.bits`, an approximate logarithm, gives this root with an error of a few per cent.
+    Only lanes whose TAIL exceeds `excess` times `largest_tail` are changed. The velocity's term
+    k c[k] t^(k-1) reaches `largest_tail` at t = (`largest_tail` / |k c[k]|)^(1/(k-1)). This t is
+    computed with `branches.bits`, an approximate logarithm, and has an error of a few per cent.
     """
     for i in range(LANES):
         most = bits(largest_tail(a, i))
@@ -50,9 +50,9 @@ def limit_length(a, series, order, excess):
 def predict_length(a):
     """Predict the LENGTH of a flight, at most LONGEST, from three coefficients of middle order.
 
-    The coefficients k x[k] of Z1' are assumed to be SCALE / r^(k-1). The orders EARLY, EARLY + 1
-    and EARLY + 2 give three values of r, of which the smallest is used. At LENGTH the last term of
-    Z1' is then `largest_tail`. The processor need not wait for the last coefficients.
+    It is assumed that the coefficients k x[k] of Z1' follow the law SCALE / r^(k-1). The orders
+    EARLY, EARLY + 1 and EARLY + 2 give three values of r. With the smallest r, LENGTH is the time
+    at which the last term of Z1' reaches `largest_tail`. The last coefficients are not needed.
     """
     last = FLIGHT_ORDER - 1
     for i in range(LANES):
@@ -71,7 +71,7 @@ def predict_length(a):
 
 
 def end_flight(a):
-    """Reduce T where TAIL is too large. Store Z1 and Z1' at T in END_Z1 and END_Z1_SLOPE."""
+    """Shorten flights whose TAIL is too large. Store Z1 and Z1' at their end (END_Z1, ...)."""
     flight_slope(a)
     beyond = 0
     for i in range(LANES):
@@ -142,7 +142,7 @@ def flight_step(a):
 
 
 def shorten_outside(a):
-    """Shorten LENGTH and T of flights that begin behind a wall's surface (`across.is_outside`)."""
+    """Shorten flights that begin behind a wall's surface (`across.is_outside`)."""
     for i in range(LANES):
         shorter = min(a[LENGTH + i], OUTSIDE * a[LAG + i])
         a[LENGTH + i] = shorter if is_outside(a, i) else a[LENGTH + i]
@@ -180,9 +180,9 @@ def contact_tangents(a, d):
 
 
 def dashpot_jump(a, d, direction):
-    """Multiply tangents by the saltation matrix of the event Z2 = +-d0.
+    """Let tangents jump at the beginning or end of a contact (saltation matrix).
 
-    At this event the force of the wall's dashpot begins (direction -1) or ends (direction +1). No
+    At |Z2| = d0 the force of the wall's dashpot begins (direction -1) or ends (direction +1). No
     other force jumps. Therefore the tangent's velocities jump in proportion to the tangent's Z2. If
     a contact begins or ends at |Z2| > d0, the wall's force is 0 there, and no tangent jumps.
     """
