@@ -49,7 +49,7 @@ CELLS_RANGE = {"least": 2, "most": 10**4}
 class Labelled(NamedTuple):
     """Attractors to which the n states of a plane lead, each run with m states of the loose mass.
 
-    labels: Index of the attractor in `records`, or a negative flag without one; shape (m, n).
+    labels: Index of the attractor in `records`, or a negative flag if none; shape (m, n).
     periods: Number of forcing cycles after which the label is known, shape (m, n).
     label: Function that returns the labels and periods of k other states, shape (k, 4).
     """
@@ -120,7 +120,7 @@ def basins(
 
         - the share of states that lead to the attractor, and these states' median convergence time;
         - the longest convergence time after a shock of either sign, infinite without return;
-        - the finite-time basin stability: the share of states that lead to it in `within` cycles;
+        - the finite-time basin stability: the share of states that reach it in `within` cycles;
         - the minimal critical shock: the smallest impulse at `phase` after which the motion does
           not return. Impulses are tried up to the largest |Z1'| of the plane.
 
@@ -284,7 +284,7 @@ def _attractor_data(p, found, phase):
     }
 
 
-# A stable manifold is computed from this distance from its saddle (an unstable orbit) outwards.
+# The computed part of a manifold begins at this distance from its saddle (an unstable orbit).
 NEAR = 1e-5
 # Limits on each side of a saddle: MOST_PERIODS forcing cycles, MOST_POINTS points in `window`, and
 # MOST_IN_ALL points within `reach`. In each cycle, points are inserted at most MOST_HALVINGS times.
@@ -390,8 +390,8 @@ def _wide(states, window, spacing, reach):
     return np.where(lost, inside, near & np.any(apart > allowed, axis=1))
 
 
-# The smallest shock is found in four rounds, which divide an interval into so many parts. The next
-# round divides the first part at whose far end motions leave the attractor.
+# The smallest shock is searched for in four rounds. Each divides a range of shocks into this number
+# of parts. The next range is the first part at whose end a motion does not return.
 SHOCKS = (256, 64, 64, 64)
 
 

@@ -26,7 +26,7 @@ PAIRS = {count: np.triu_indices(count, 1) for count in (2, 4)}
 
 
 class Event(NamedTuple):
-    """A bifurcation, or a change of contact between the sequences of walls `before` and `after`.
+    """A bifurcation or a change of contacts, with the `Orbit.sequence` before and after it.
 
     The kind is a key of TESTS, "grazing" (a contact appears or vanishes in flight) or "merging"
     (two contacts with one wall become one contact, or one contact parts in two).
@@ -92,7 +92,7 @@ def bifurcations_between(point_at, start, end, first, last):
             place = brentq(value, first, last, xtol=tolerance)
             point = known[place]
             if not point.orbit.stable and abs(point.orbit.multipliers[0]) < 1 + NEAR_CIRCLE:
-                # Use a stable orbit close to the bifurcation, if one exists.
+                # Prefer a stable orbit close to the bifurcation.
                 sides = (place - 2 * tolerance, place + 2 * tolerance)
                 beside = [point_at(side) for side in sides if (side - first) * (side - last) < 0]
                 point = next((each for each in beside if each.orbit.stable), point)

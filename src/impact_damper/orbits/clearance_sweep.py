@@ -155,8 +155,8 @@ def _peak_rule(oscillator, mass_ratio):
 def _quiet_motions(data, clearances, rule):
     """Return the state and max |Z1| of the quiet motion at each clearance, and an index or None.
 
-    max |Z1| is NaN without a quiet motion. The index is the place of the clearance nearest to
-    `rule` that has a quiet motion. Quiet motions on other branches than this motion are ignored.
+    max |Z1| is NaN without a quiet motion. The index belongs to the clearance nearest to `rule`
+    that has a quiet motion. Only quiet motions on the same branch as this motion are returned.
     """
     names = "outcome period contacts asymmetry maximum_displacement branch state"
     table = {name: data[name][1] for name in names.split()}
@@ -196,8 +196,8 @@ def _stable_part(p, state, span):
 
 # The range around the optimum ends where max |Z1| is NEAR_MINIMUM times its minimum.
 NEAR_MINIMUM = 1.1
-# A smooth minimum of max |Z1| is refined: it lies where a central difference with the step
-# DIFFERENCE is zero. WIDE: largest change by this. Both are divided by the clearance.
+# A smooth minimum of max |Z1| is moved, by at most WIDE, to the clearance at which a central
+# difference with the step DIFFERENCE is zero. Both are divided by the clearance.
 DIFFERENCE, WIDE = 3e-5, 1e-4
 
 
@@ -256,7 +256,7 @@ def _kind(size_at, best, least, longest):
 
 
 def _near(values, sizes, size_at, best, least):
-    """Return where max |Z1| first reaches NEAR_MINIMUM times `least`, or else `values[-1]`."""
+    """Return the clearance at which max |Z1| reaches NEAR_MINIMUM times `least`, or the last."""
     level = NEAR_MINIMUM * least
     inside = best
     for value, size in zip(values, sizes, strict=True):

@@ -39,8 +39,8 @@ LONGEST, LONGEST_UNSTABLE, SMALLEST = 0.02, 0.06, 0.05
 # The first guess in `Problem.at_value` is at most this far from the given point. A farther guess
 # near a fold could be a state so large that its integration takes minutes.
 FARTHEST_GUESS = 0.08
-# A point may lie about ASIDE times the length of the step away from its first guess. A farther
-# point may lie on another branch. The first correction may be FAILING times this distance.
+# A point must lie within about ASIDE times the length of the step of its first guess, because a
+# farther point may lie on another branch. The first correction may be FAILING times this distance.
 ASIDE, FAILING = 0.2, 2.0
 
 
@@ -115,7 +115,7 @@ class Problem:
 
     @cached_property
     def metric(self):
-        """Weight of each squared difference in the squared distance, shape (m n + 1,)."""
+        """Weights of the unknowns' squared differences in the squared distance, (m n + 1,)."""
         m = len(self.phases) - 1
         return np.append(np.full(m * self.size, 1 / m), 1.0)
 
@@ -204,7 +204,7 @@ class Problem:
         return np.linalg.lstsq(matrix, right, SINGULAR)[0]
 
     def near(self, x, border, length):
-        """Return the point that `correct` finds from x, or None if it is too far away (ASIDE)."""
+        """Return the point that `correct` finds from x, None if it is too far away (see ASIDE)."""
         aside = ASIDE * abs(length) + min(ROUNDING, abs(length))
         point = self.correct(x, border, FAILING * aside)
         return None if point is None or self.length(point.x - x) > aside else point
@@ -222,7 +222,7 @@ class Problem:
 
 
 def point_at_distance(origin, point, ahead, distance):
-    """Return the point `distance` along the tangent of `origin`, between two points; or None."""
+    """Return the point between two points, at a distance along the tangent of `origin`; or None."""
     row = origin.problem.metric * origin.tangent
     first, last = (row @ (end.x - origin.x) for end in (point, ahead))
     x = _cubic(point, ahead, (distance - first) / (last - first))
@@ -274,7 +274,7 @@ AIM, GROWTH, SHRINKAGE = 0.65, 1.5, 0.3
 
 
 def next_point(point, span, length):
-    """Return the next point, or None if the step fails, and a factor for the following `length`."""
+    """Return the next point, None if the step fails, and the factor for the next step's length."""
     problem = point.problem
     bent = length**2 / 2 * point.bend + length**3 / 6 * point.twist
     ahead = problem.near(point.x + length * point.tangent + bent, point.tangent, length)

@@ -16,10 +16,10 @@ from impact_damper.orbits.segments import list_turns, slopes_of_ends
 
 # On the side with more contacts, points are computed at |height| = LEAST x RATIO^k, up to MOST.
 RATIO, LEAST, MOST = 10.0, 1e-13, 2e-5
-# A step from height to height that fails is divided in two. HALVINGS: how often in one grazing.
-# HALVINGS_BETWEEN: how often in a row for a point between two known points.
+# A failed step from height to height is divided in two, at most HALVINGS times in each grazing, and
+# at most HALVINGS_BETWEEN times in a row if the step leads to a point between known points.
 HALVINGS, HALVINGS_BETWEEN = 8, 3
-# If a step reduces `Orbit.deviation` below FALLEN times its size, it leads to another branch.
+# A step after which `Orbit.deviation` is FALLEN times as large, or less, leads to another branch.
 FALLEN = 0.01
 # On the side with fewer contacts, points are computed at these |height|.
 BESIDE = 1e-9, 2e-5
@@ -154,11 +154,11 @@ def _targets(height, sharp, direction):
     return [*(sharp * inside[::-1]), *(direction * height for height in BESIDE)]
 
 
-# Length of the step along the tangent of a branch with which the change of a height is estimated.
+# A point is moved by this length along its tangent to estimate how heights of extrema change.
 SHIFT = 1e-10
 # At first the list of extrema has room for TURNS extrema in each segment.
 TURNS = 256
-# The phase of an extremum may differ by so much between two neighbouring orbits, radian.
+# Extrema of two neighbouring orbits are the same if their phases differ by less, radian.
 MOVED = 0.1
 
 
@@ -189,7 +189,7 @@ def turns_of(orbit):
 def with_gradient(problem, x, orbit, turn):
     """Return an extremum with its gradient. The array `x` holds the unknowns of the orbit.
 
-    The gradient is computed at a fixed phase: Z2' = 0, so a small shift does not change the height.
+    The phase is kept fixed, because a small shift does not change the height where Z2' = 0.
     """
     k, rate = turn.segment, problem.rate(x[-1])
     phases, begin = np.array([orbit.phases[k], turn.phase]), orbit.states[k]

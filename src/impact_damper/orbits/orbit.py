@@ -128,7 +128,7 @@ class Orbit:
 
     @cached_property
     def cycle_multipliers(self):
-        """Eigenvalues of the `matrix`, shape (active,), more exact than from the product itself."""
+        """Eigenvalues of the `matrix`, shape (active,), computed more exactly from `factors`."""
         n = self.active
         return segments.multipliers(self.factors[:, :n, :n])
 
@@ -206,10 +206,10 @@ class Orbit:
 
     @cached_property
     def deviation(self):
-        """Deviation from a symmetric orbit or, if `periods` is even, from one of half the period.
+        """Deviation from a symmetric orbit or, if `periods` is even, from half the period, (4,).
 
-        It is the first state plus (even: minus) the state half a period later, shape (4,). Where a
-        branch meets a branch of such orbits, it changes its sign. If `sign` is -1, it is all ones.
+        It is the first state plus, or if `periods` is even minus, the state half a period later. It
+        changes its sign where a branch meets a branch of such orbits. If `sign` is -1, it is ones.
         """
         if self.sign < 0:
             return np.ones(4)

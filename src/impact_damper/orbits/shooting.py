@@ -8,7 +8,7 @@ from impact_damper.motions.strobe_map import STROBE
 from impact_damper.orbits import segments
 from impact_damper.orbits.orbit import TURN, Orbit, integrate
 
-# Newton's method makes at most ITERATIONS corrections. A component of a state changes by up to FAR.
+# Newton's method makes at most ITERATIONS corrections, and stops if one reaches FAR in a component.
 ITERATIONS, FAR = 20, 10.0
 # An orbit with a residual below NEAR is exact enough to be integrated to another phase.
 NEAR = 1e-6

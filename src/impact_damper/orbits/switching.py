@@ -18,9 +18,9 @@ from impact_damper.orbits.shooting import shoot
 # First guesses lie at each of DISTANCES from the bifurcation. The orbit found may lie ASIDE times
 # this distance away from its first guess.
 DISTANCES, ASIDE = (2e-2, 4e-3, 8e-4, 1e-4, 1e-5), 0.5
-# If these guesses fail, other guesses change the height of an extremum of Z2 (`grazing.Turn`) by
-# SHARES of the height. A guess lies up to REACH from the bifurcation; the orbit's distance differs
-# from this by less than the share MISSED. From PASSAGES orbits at most, a grazing is passed.
+# If these guesses fail, a grazing may be near. Then guesses change an extremum's height |Z2| - d0 by
+# SHARES of it, within the distance REACH of the bifurcation. The distance of the orbit found must
+# have a relative error below MISSED. At most PASSAGES orbits are followed through the grazing.
 SHARES, MISSED, REACH, PASSAGES = (0.5, 0.2, 0.1, 0.05, 0.02), 0.5, 1e-3, 2
 # Kinds of events at which another branch leaves.
 LEAVING = ("symmetry_breaking", "period_doubling")
@@ -29,7 +29,7 @@ MEETING = 1e-3
 
 
 def other_branch(event, *, stable=False) -> Point | None:
-    """Return a point of the branch that leaves at an event, or None. `stable`: a stable point."""
+    """Return a point (if `stable`, a stable one) of the branch that leaves at an event, or None."""
     leaving = _leaving(event)
     doubled = event.kind == "period_doubling"
 
@@ -106,7 +106,7 @@ def _at_heights(leaving):
 
 # From a branch whose period is in WHOLE, stable and unstable branches are followed. From others,
 # only branches that begin stable, with a period up to STABLE. If a branch of a period up to MET
-# ends at a branch of symmetric orbits or of half the period, this branch is followed too.
+# ends at a branch of symmetric orbits or of half the period, the branch met is followed too.
 WHOLE, STABLE, MET = (1, 3), 9, 4
 # A branch ends at an event if the end differs from the event by less than SAME_VALUE in the
 # parameter and SAME_SIZE in max |Z1|. The end is known only to within 1e-7, because it is a fold.
