@@ -37,7 +37,7 @@ from impact_damper.orbits.shooting import find_orbit
 
 # Default half widths of the plane, divided by the largest |Z1| or the largest |Z1'| without damper.
 WIDTH = 1.5
-# Unstable orbits are searched for from a grid of NEWTON x NEWTON states.
+# The search for unstable orbits begins at each state of a grid of NEWTON x NEWTON states.
 NEWTON = 16
 # At most 2 TRIED of the states that reach no known attractor are used to search for further ones.
 TRIED = 64

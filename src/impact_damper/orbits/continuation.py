@@ -47,8 +47,8 @@ ASIDE, FAILING = 0.2, 2.0
 class Point(NamedTuple):
     """A point of a branch: the parameter's `value`, and the orbit there.
 
-    The m n + 1 unknowns `x` are the states at which the m segments begin, and the parameter. Of a
-    state n = 4 components are unknown, without a damper n = 2 (Z1, Z1'). `tangent`, `bend` and
+    The m n + 1 unknowns `x` are the states at which the m segments begin, and the parameter. A
+    state has n = 4 unknown components, or without a damper n = 2 (Z1, Z1'). `tangent`, `bend` and
     `twist` are the first three derivatives of `x` by the length along the branch.
     """
 

@@ -18,9 +18,9 @@ from impact_damper.orbits.shooting import shoot
 # First guesses lie at each of DISTANCES from the bifurcation. The orbit found may lie ASIDE times
 # this distance away from its first guess.
 DISTANCES, ASIDE = (2e-2, 4e-3, 8e-4, 1e-4, 1e-5), 0.5
-# If these guesses fail, a grazing may be near. Then guesses change an extremum's height |Z2| - d0 by
-# SHARES of it, within the distance REACH of the bifurcation. The distance of the orbit found must
-# have a relative error below MISSED. At most PASSAGES orbits are followed through the grazing.
+# If these guesses fail, a grazing may be near. New guesses change |Z2| - d0 in an extremum of Z2 by
+# a share in SHARES, and lie within REACH of the bifurcation. The distance of the orbit found may
+# have a relative error up to MISSED. At most PASSAGES orbits are followed through the grazing.
 SHARES, MISSED, REACH, PASSAGES = (0.5, 0.2, 0.1, 0.05, 0.02), 0.5, 1e-3, 2
 # Kinds of events at which another branch leaves.
 LEAVING = ("symmetry_breaking", "period_doubling")
