@@ -229,7 +229,7 @@ def _checked_orbit(model, state, period, phase):
 
 
 def _seeds(motions, damper):
-    """Yield period, frequency, max |Z1| and state of settled motions. Each may lie on a new branch."""
+    """Yield period, frequency, max |Z1| and state of settled motions from which to start."""
     for data in motions:
         chosen = data["outcome"].values == flag("outcome", "settled")
         if damper is not None:
