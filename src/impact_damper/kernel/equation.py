@@ -3,7 +3,7 @@
     Z1'' = (F + U W^2) cos(W T) - h Z1' - omega_l^2 Z1 - k3 Z1^3
 
 This is equation (3) of the paper with three further parameters: k3, F and U. Some functions yield
-lines of Python code, of which `instances` makes kernels. docs/explanation/series.md explains how
+lines of Python code, which `instances` joins into kernels. docs/explanation/series.md explains how
 each Taylor coefficient follows from earlier ones, and the names in the lines.
 """
 

@@ -1,6 +1,6 @@
 """Generate Python modules that compute an integration step.
 
-A module is made for a number of lanes and for two orders of Taylor series, in flight and in
+A module is made for a number of lanes, and for the orders of Taylor series in flight and in
 contact. Each lane holds one trajectory. A module contains the templates, which `branches` compiles,
 and kernels that compute Taylor series, which `straight_lines` compiles. With several lanes a step
 takes a third of the time per trajectory. All numbers of a step stand in a flat array of rows. Each
@@ -40,7 +40,7 @@ CONTACT_ORDER = 23
 # SCRATCH, FREE   intermediate results
 # SERIES          Taylor coefficients; E, H and D are the same in all steps of a trajectory
 #   X: Z1   Q: depth in a wall, Z2 - SIDE d0   G: Z1'' without the wall's force   H: DAMPING/k
-#   U: slope of the spring's nonlinear force   E: forcing over COSINE or SINE   D: DASHPOT/k
+#   U: slope of the spring's nonlinear force   E: forcing divided by COSINE or SINE   D: DASHPOT/k
 # A tangent is a solution of the variational equations. Groups of a tangent's rows, in this order:
 # STATE and KEPT, which is the tangent's Z2 while the loose mass sticks
 # TANGENT_SERIES  coefficients of the tangent's Z1 (DX) and of the tangent's depth (DQ)
@@ -118,7 +118,7 @@ def _source(writer):
 
 
 def rows(flight_order, contact_order):
-    """Return a dictionary from the name of a row to its index. A series begins at its index.
+    """Return a dictionary from names of rows to indices. The index of a series is its first row.
 
     Rows from the index PARTS on hold partial sums. A step has ROWS rows, a tangent TANGENT_ROWS.
     """
@@ -385,7 +385,7 @@ class Source(Writer):
             yield f"{z1} -= {force}"
 
     def _tail(self, phase):
-        """Yield lines that store in TAIL how large the last two terms of the velocities are."""
+        """Yield lines that store in TAIL how large the last terms of the velocities' series are."""
         last = self.orders[phase]
         yield "last = 0.0"
         for row in self.moving(phase):

@@ -99,7 +99,7 @@ def extremum(c, order, length, start):
 
 @kernel_only
 def turning_time(c, order, begin, end, first, last):
-    """Return the time of slope 0. The slope at `begin` is `first`, the slope at `end` is `last`."""
+    """Return when a polynomial's slope is 0. It is `first` at `begin`, and `last` at `end`."""
     t = begin + (end - begin) * first / (first - last)
     for _ in range(4):
         _, slope = polynomial(c, order, t)

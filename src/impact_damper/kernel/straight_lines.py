@@ -24,7 +24,7 @@ INDEX, OFFSET = ir.IntType(32), ir.IntType(64)
 
 
 def straight(function):
-    """Decorate a function that consists of a loop `for i in range(lanes)` with assignments.
+    """Decorate a function whose body is a loop `for i in range(lanes)` of assignments.
 
     The number of lanes is at most WIDTH, or a multiple of WIDTH. The left side of `=`, `+=` or `-=`
     is a name, `a[1 + i]`, or, with one lane, `a[1]`. The right side consists of names, constants,
@@ -165,7 +165,7 @@ class Arithmetic:
         return self.combined("fneg", value)
 
     def fused(self, first, second, third):
-        """Return first * second + third. If the processor can, it rounds the result only once."""
+        """Return first * second + third, rounded only once if the processor can do so."""
         return self._each(partial(self._intrinsic, "llvm.fmuladd"), first, second, third)
 
     def modulus(self, number):

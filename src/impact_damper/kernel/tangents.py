@@ -46,7 +46,7 @@ def step_all(count, t, longest, a, d):
 
 @kernel
 def step_with_tangents(p, y, tangents, side, t, longest, tolerance, work):
-    """Do a step as `single.step` does, and replace also the `tangents` (m, 4). m is at most 4."""
+    """Do a step as `single.step` does. Replace the `tangents` (m, 4), too, with m at most 4."""
     a, d = pointer(work), pointer(work[BEHIND:])
     load(p, y, side, tolerance, a)
     load_tangents(tangents, d)
@@ -60,7 +60,7 @@ def step_with_tangents(p, y, tangents, side, t, longest, tolerance, work):
 def advance(p, y, tangents, side, t, end, tolerance, work):
     """Integrate from time t to time `end`. `step_with_tangents` describes the other arguments.
 
-    Return three numbers: `side` at the end, the number of contacts begun, and the time in contact.
+    Return `side` at the end, the number of contacts that began, and the total time in contact.
     A motion that escapes (`equation.no_return`) stops in the state at the escape.
     """
     contacts = 0

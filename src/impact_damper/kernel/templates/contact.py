@@ -117,7 +117,7 @@ def find_contact(a):
 
 
 def meet_expected(a):
-    """Improve the time of expected contacts once. Return how many lanes are still undecided."""
+    """Do one iteration on times of expected contacts. Return how many lanes are undecided."""
     flight_curve(a)
     find_sway(a)
     undecided = 0

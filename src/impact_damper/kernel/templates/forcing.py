@@ -47,7 +47,7 @@ def find_forcing(a):
 def forcing(a):
     """Compute COSINE = A cos(W t) and SINE = A sin(W t) at the time t = TIME. A is F + U W^2.
 
-    With one lane, COSINE and SINE at the time KNOWN are only corrected if KNOWN is close to TIME.
+    With one lane, the values at the time KNOWN are corrected if KNOWN is close to TIME.
     """
     t = a[FREQUENCY] * (a[TIME] - a[KNOWN])
     if LANES > 1 or not abs(t) < NEAR:

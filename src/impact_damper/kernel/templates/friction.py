@@ -1,8 +1,8 @@
 """Template (see `step`): Coulomb friction of the loose mass on its floor.
 
-SLIDE is the sign of Z2'. While the loose mass slides, friction adds -FRICTION SLIDE to the
-acceleration across (template `across`) and PUSH to Z1''. While the loose mass sticks (STUCK is 1),
-both masses move together. Let g be Z1'' without the loose mass. Then
+SLIDE is the sign of Z2'. While the loose mass slides, friction changes Z1'' by PUSH and Z2'' - Z1''
+by -FRICTION * SLIDE. While the loose mass sticks (STUCK is 1), both masses move together. Let g be
+Z1'' without the loose mass. Then
 
     (1 + rm) Z1'' = g - rm (GRAVITY - BASE A cos(W T))
 

@@ -67,7 +67,7 @@ def find_separation(a):
 
     Before the call T is a guess. If there is a separation, MODE becomes MET. If there is certainly
     none, T becomes LENGTH and MODE becomes MISSED. END_Z1 and END_Z1_SLOPE receive Z1 and Z1' at T.
-    END_DEPTH and END_DEPTH_SLOPE receive the depth Z2 -+ d0 and its slope at T.
+    END_DEPTH and END_DEPTH_SLOPE receive the depth Z2 - SIDE d0 and the slope of the depth at T.
 
     Let q be the depth times the sign of the wall, n the natural frequency of the contact, and
     D = DASHPOT (1 + 1/rm). Then q'' = g - n^2 q - D q', where |g| is at most a number G. The phase
