@@ -74,7 +74,7 @@ HOW = (
     f"with a probability below 0.001. The sweep has {GAPS} gaps, {FREQUENCIES} frequencies and "
     f"{SWEPT} starts; gaps that seem better by {BETTER:.0%} are computed as the design was."
 )
-RULE = 9 * "|---" + "|\n"  # below the head of the table in the documentation
+RULE = 8 * "|---" + "|\n"  # below the head of the table in the documentation
 # A promise is broken if, at 5 % for each start, so many starts exceed it with a lower probability.
 CHANCE = 1e-3
 
