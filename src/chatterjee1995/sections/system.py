@@ -141,7 +141,7 @@ class MaybeWithDamper(keys_of(DAMPER, without=[COMMON]), WithOscillator):
                 yield missing((*path, key), reason)
 
     def has_damper(self) -> bool:
-        """Return whether the entry has a damper, by any of the parameters in `whole`."""
+        """Return whether the entry has a damper: one of the parameters in `whole` is given."""
         return bool(given(self, self.whole))
 
     def system(self, config) -> dict:

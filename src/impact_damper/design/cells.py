@@ -24,8 +24,8 @@ KEPT = (SETTLED, NON_COLLIDING, AT_REST)
 # Purposes for which starts are drawn. The seed of the starts depends on the purpose. The search for
 # a gap and the confirmation of the gap therefore use different starts.
 STREAMS = "search compared confirmed orbit forces masses repeated shocks searched_again".split()
-# A thread draws the starts of DRAWN cells at a time, and runs FOLLOWED motions at a time.
-# At most TOGETHER regimes are run before the bounds of all cells are compared again.
+# At once, a thread draws the starts of up to DRAWN cells, and runs up to FOLLOWED motions. After
+# TOGETHER regimes have been run, the bounds of all cells are compared again.
 DRAWN, FOLLOWED, TOGETHER = 4, 64, 8
 # In a regime each record is at most this factor x the next smaller record.
 APART = 1.3
@@ -161,8 +161,8 @@ class Motions:
     def largest(self, rank, least=0.0, left_out=()) -> np.ndarray:
         """Run motions until the largest bound of all cells is known. Return the bounds.
 
-        The bound of a cell is its `rank`-th largest displacement. If the largest bound is at most
-        `least`, it need not be known. Cells in `left_out` are not run.
+        The bound of a cell is its `rank`-th largest displacement. The runs also
+        end once all bounds are certainly at most `least`. Cells in `left_out` are not run.
         """
         while True:
             bounds, places, known = self.bounds(rank)

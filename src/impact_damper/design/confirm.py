@@ -77,7 +77,7 @@ def confirm(task, gap, turn, sets, progress=None) -> Tried:
 
 
 def learn(task, tried, turn, curve, progress=None) -> None:
-    """Correct the search's curve of displacements by the bounds that new starts gave at a gap."""
+    """Put the bounds that new starts gave at a gap into the curve that the search has computed."""
     gap, promise = tried.gap, tried.promise
     sizes, factors = promise.by_set(), promise.sets[:, 0]
     expected = curve.within(*np.array(task.gap_ends(gap))[:, None])[0]

@@ -137,7 +137,7 @@ def move_onto_orbit(p, y, periods, near, out):
 
 @kernel_only
 def approaches(ring, k, n, weight):
-    """Return whether the last RETURNS distances between states n cycles apart have decreased."""
+    """Return whether successive states n cycles apart have come closer, RETURNS times in a row."""
     before = 0.0
     for j in range(RETURNS):
         if k < (j + 1) * n or (j + 1) * n >= RING:

@@ -19,7 +19,7 @@ RATIO, LEAST, MOST = 10.0, 1e-13, 2e-5
 # A failed step from height to height is divided in two, at most HALVINGS times in each grazing, and
 # at most HALVINGS_BETWEEN times in a row if the step leads to a point between known points.
 HALVINGS, HALVINGS_BETWEEN = 8, 3
-# A step after which `Orbit.deviation` is FALLEN times as large, or less, leads to another branch.
+# A step has led to another branch if `Orbit.deviation` has fallen to FALLEN times its old value.
 FALLEN = 0.01
 # On the side with fewer contacts, points are computed at these |height|.
 BESIDE = 1e-9, 2e-5

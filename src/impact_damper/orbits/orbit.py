@@ -27,7 +27,7 @@ TURN = 2 * math.pi
 RESIDUAL, STIFF_RESIDUAL = 1e-12, 7e-15
 # An orbit should begin at least this far from a contact, radian.
 MARGIN = 0.15
-# At first the list of contacts has room for 2 CONTACTS in each forcing cycle and in each segment.
+# The list of contacts at first has 2 x CONTACTS rows for each forcing cycle and for each segment.
 CONTACTS = 64
 
 

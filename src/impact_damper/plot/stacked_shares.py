@@ -103,7 +103,7 @@ def _ranked_motions(data):
 
 
 def _parts(data, kind, places):
-    """Return a motion's masks, keyed by kind. Chaos that ended in a run is a chaotic transient."""
+    """Return a motion's masks, keyed by kind. A chaotic motion that settled is a transient."""
     if kind != "chaotic" or "life_ends" not in data:
         return {kind: places}
     ended = data["life_ends"].values > 0

@@ -59,12 +59,12 @@ class Flight(NamedTuple):
 
     @property
     def reach(self):
-        """Because contacts take time, the clearance rm W^2 d0/f is less by reach (1 + rm) q."""
+        """How much smaller rm W^2 d0/f is because contacts take time, divided by (1 + rm) q."""
         return 4 / np.pi * self.contact_phase * self.restitution / (1 + self.restitution) ** 2
 
     @property
     def setback(self):
-        """Because contacts take time, the lag s is less by this amount."""
+        """How much smaller the lag s is because contacts take time."""
         asymmetry = (1 - self.restitution) / (1 + self.restitution)
         return self.contact_phase * asymmetry - 2 * damping_ratio(self.restitution) * self.contact
 

@@ -141,8 +141,8 @@ def exclude_contacts(a):
 
     Return how many lanes are still undecided. A cubic polynomial with the values and slopes of Z2
     at 0 and T deviates from Z2 by at most `most` = T^4 max|Z2''''| / 384. Each half of the cubic
-    lies between its Bernstein coefficients. The coefficients become bounds on Z2 if the one in the
-    middle is enlarged by `most`, and its neighbours by 4/3 `most`.
+    lies between its Bernstein coefficients. To bound Z2 as well, each half
+    needs `most` added to its middle coefficient, and 4/3 `most` to the neighbours of this one.
     """
     flight_snap(a)
     undecided = 0
