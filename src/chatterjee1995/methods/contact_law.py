@@ -14,7 +14,7 @@ from impact_damper.model.exit_rules import damping_ratio
 
 
 class Exit(NamedTuple):
-    """The end of a contact: outcome, scaled duration s, speed at the end over the first speed v0."""
+    """The end of a contact: outcome, scaled duration s, last speed divided by the first, v0."""
 
     outcome: str
     duration: float

@@ -51,7 +51,7 @@ def subharmonic_suppression(
     """Return a dataset of motions with the damper in the range of W of the free subharmonic.
 
     If the free subharmonic is found, `frequencies` are replaced by as many frequencies over its
-    range and a margin on both sides. Within the range, half of the starts lie on the free subharmonic.
+    range and a margin on both sides. Within the range, half of the starts lie on this motion.
     """
     if not any(getattr(oscillator, name) for name in NONLINEAR):
         raise ValueError(
