@@ -87,7 +87,7 @@ def frequency_response(
           the share of random starts that lead to the motion; the mean life of a chaotic motion.
           Entries without a motion have the outcome `absent`.
         - For each (frequency, start): outcome and length of the run. For each `end`: the end of a
-          branch. For each `frequency`: largest |Z1| and |Z1'| of starts and of free motions.
+          branch. For each `frequency`: largest |Z1| and speed of starts and of free motions.
         - `missed_share`: upper bound (95 %) on the share of starts that lead to motions not found.
 
     Warns

@@ -122,7 +122,7 @@ def basins(
         - the longest convergence time after a shock of either sign, infinite without return;
         - the finite-time basin stability: the share of states that reach it in `within` cycles;
         - the minimal critical shock: the smallest impulse at `phase` after which the motion does
-          not return. Impulses are tried up to the largest |Z1'| of the plane.
+          not return. Impulses are tried up to the largest speed in the plane.
 
         Without a damper also: unstable orbits whose period is the period of an attractor, and their
         stable manifolds, which are the boundaries of basins.
