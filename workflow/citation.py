@@ -1,8 +1,8 @@
 """Make files from pyproject.toml (`make citation`): for citing, and the environment of jobs.
 
 The table [tool.citation] of pyproject.toml holds what [project] has no key for, such as a DOI and
-a date of release. Addresses stand in [project.urls]. Snakemake makes the
-environment of the jobs from workflow/envs/impact-damper.yaml, if it is told to use conda.
+a date of release. Addresses stand in [project.urls]. `snakemake --sdm conda` installs the packages
+that workflow/envs/impact-damper.yaml lists, and runs the jobs with them.
 """
 
 import json

@@ -119,7 +119,7 @@ Body = create_model("Body", __base__=Given, **fields_of(Machine))
 
 def deviation_of(what, *absolute):
     """Return an optional field for the deviation of `what`. `absolute` is as in `quantity_of`."""
-    meaning = f"largest deviation of {what}, as a fraction of it"
+    meaning = f"largest relative deviation of {what}"
     return quantity_of("number", meaning, absolute, least=0, most=0.9), None
 
 

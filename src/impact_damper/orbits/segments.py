@@ -1,6 +1,6 @@
 """Multiple shooting: divide an orbit into segments, and combine the derivatives of segments.
 
-Rounding errors grow along a strongly unstable orbit, but only little along a short segment of it.
+Along a strongly unstable orbit rounding errors grow large. Along a short segment they stay small.
 The derivative of a segment is the matrix d(last state)/d(first state).
 """
 

@@ -303,7 +303,7 @@ def _condition(data):
             while 0 <= k + step < len(shares) and kept[k + step]:
                 k += step
             if 0 <= k + step < len(shares):
-                facts = {"end": shares[k], "beyond": shares[k + step], "size": sizes[k + step]}
+                facts = {"beyond": shares[k + step], "size": sizes[k + step]}
                 margin = abs(shares[k + step] - 1)
                 found.append(SimpleNamespace(kind="force", margin=margin, **facts))
     return min(found, key=lambda each: each.margin, default=None)
