@@ -43,9 +43,9 @@ def settle(
 ):
     """Run motions from states (m, 4) until `watch` stops them; return an array of `records.MOTION`.
 
-    `parameters` has a row of packed parameters for each motion. If `from_strobe`, all states are at
-    the first strobe, W T = pi/2. Otherwise all states are at the time T = `start`, at most a cycle
-    before the first strobe. If another thread sets `stop[0]`, the records are incomplete.
+    Row i of `parameters` holds the packed parameters of motion i. If `from_strobe`, all states are
+    at the first strobe, W T = pi/2. Otherwise all states are at the time T = `start`, at most a
+    cycle before the first strobe. If another thread sets `stop[0]`, the records are incomplete.
     """
     parameters = np.ascontiguousarray(parameters, float)
     strobes = 0.5 * np.pi / parameters[:, FREQUENCY]
@@ -103,13 +103,13 @@ def follow_many(parameters, states, cycles, tolerance, contacts, largest):
     advance(parameters, states, sides, begins, ends, tolerance, contacts, largest)
 
 
-# Two kernels for `settle_with`: one settles motions, the other runs them for some further cycles.
+# Two kernels for `settle_with`: the first settles motions, the second runs them for more cycles.
 SIDE_BY_SIDE = settle_many, follow_many
 
 
 @kernel
 def take(pool, m, i, parameters, states, start, tolerance, seen, out):
-    """Put motion i, if it exists, at index m of the pool. Motions in a pool run side by side."""
+    """Put motion i at index m of the pool of running motions, or nothing if i is too large."""
     if i < len(out):
         p, y = parameters[i], states[i]
         begin_watch(seen[m], i, out[i])
@@ -119,7 +119,7 @@ def take(pool, m, i, parameters, states, start, tolerance, seen, out):
 
 @kernel_only
 def take_state(pool, m, i, p, states, begin, first, tolerance, y, taken, strobes):
-    """Put the free motion from state i, if it exists, at index m of the pool."""
+    """Put the free motion from states[i] at index m of the pool, or nothing if i is too large."""
     if i < len(states):
         taken[m], strobes[m] = i, 0
         y[0], y[1], y[2], y[3] = states[i, 0], states[i, 1], states[i, 0], states[i, 1]
@@ -151,7 +151,7 @@ def label_states(p, states, phase, attractors, tolerance, limit, workers=1, prog
 
 @kernel
 def label_many(p, begin, tolerance, limit, neighbourhoods, states, labels, periods, stop):
-    """Do the work of `label_states` for states at the time `begin`; fill `labels`, `periods`."""
+    """Fill `labels` as in `label_states`, `periods` with the cycles until each label is known."""
     owner, centre, shape = neighbourhoods
     size = min(len(states), RESIDENT)
     pool = make_pool(size)

@@ -23,8 +23,8 @@ from impact_damper.motions.watch import RING, SEEN, begin_watch, watch
 
 # Motions in a chunk. A call of a kernel runs one or more chunks. Ctrl-C waits until the call ends.
 CHUNK = 128
-# MOST_CHUNKS: largest number of chunks in one call. SLICES: smallest number of calls for each
-# thread, if there are several threads.
+# MOST_CHUNKS: largest number of chunks in one call. SLICES: smallest number of calls for each of
+# several threads, if there are enough motions.
 MOST_CHUNKS, SLICES = 8, 3
 
 
@@ -96,7 +96,7 @@ def steady_orbit(system, damper, frequency, state, *, samples=200, settling=None
 
 
 def run_chunks(work, count, workers, progress, stop, size=CHUNK):
-    """Call `work(slice)` for slices of length `size` that cover range(count), on `workers` threads.
+    """Divide range(count) into slices of length `size`; call `work(slice)` on `workers` threads.
 
     After an error or Ctrl-C the function sets `stop[0]` and does not wait for calls that still run.
     """
@@ -132,7 +132,7 @@ def settle_with(
     def work(part):
         rows, out = parameters[part], records[part]
         settle(rows, states[part], begins[part], *settings, out, stop)
-        # Results may depend on these slices, so the number of workers must not change the slices.
+        # Results may depend on which motions share a chunk, so chunks do not depend on `workers`.
         for first in range(0, max(len(out), 1), CHUNK):
             some = slice(first, first + CHUNK)
             name_undecided(rows[some], out[some], settling.limit, settling.further, stop)
@@ -140,8 +140,8 @@ def settle_with(
 
     # This call compiles the kernels in the main thread, where Ctrl-C can interrupt the compilation.
     work(slice(0, 0))
-    # Large slices are faster, because near the end of a slice a kernel runs few motions at once.
-    # But each worker gets several slices, so that all workers end at about the same time.
+    # Calls with many motions are faster, because near its end a call has few motions left to run
+    # side by side. But each worker gets several calls, so that all end at about the same time.
     share = len(states) // CHUNK if workers == 1 else len(states) // (SLICES * workers * CHUNK)
     size = CHUNK * min(max(share, 1), MOST_CHUNKS)
     run_chunks(work, len(states), workers, progress, stop, size=size)
@@ -168,5 +168,5 @@ def settle_each(parameters, states, start, tolerance, patience, limit, out, stop
         assign(out[i].state, y)
 
 
-# Two kernels for `settle_with`: one settles motions, the other runs them for some further cycles.
+# Two kernels for `settle_with`: the first settles motions, the second runs them for more cycles.
 ONE_BY_ONE = settle_each, follow_each

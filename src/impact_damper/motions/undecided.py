@@ -1,10 +1,10 @@
 """Run undecided motions longer, until their outcome is certain.
 
-The strobe states of a quasi-periodic motion lie on one or more closed curves. Its rotation number
-is the mean advance along a curve from state to state. Here the mean over N states is weighted. The
-weights fall so smoothly to 0 at both ends that the mean converges faster than any power of 1/N
-(S. Das, Y. Saiki, E. Sander and J. A. Yorke, Nonlinearity 30, 4111-4140, 2017). For a chaotic
-motion it converges only as N^(-1/2).
+The strobe states of a quasi-periodic motion lie on n closed curves, every n-th state on one curve.
+The rotation number is the mean advance along a curve in n cycles. Here the mean over N states is
+weighted. The weights fall so smoothly to 0 at both ends that the mean converges faster than any
+power of 1/N (S. Das, Y. Saiki, E. Sander and J. A. Yorke, Nonlinearity 30, 4111-4140, 2017). For a
+chaotic motion the mean converges only as N^(-1/2).
 """
 
 import math
@@ -20,15 +20,15 @@ from impact_damper.motions import records
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, one_period, polish
 from impact_damper.motions.watch import CONFIDENCE, LONGEST_PERIOD, NEAR, normalise
 
-# A run consists of blocks. FIRST: largest number of forcing cycles in the first block. BATCHES:
-# number of parts of a block. The scatter of their means gives the standard error of the mean.
+# A motion is run in blocks. FIRST: largest number of forcing cycles in the first block. BATCHES:
+# number of batches in a block. The scatter of their means gives the standard error of the mean.
 FIRST, BATCHES = 1500, 30
-# In a block a small disturbance of a chaotic motion grows by more than exp(GROWN). When rounding
-# errors make a motion leave an unstable orbit, they grow by less, about 1e16 = exp(37).
+# In a block a tangent of a chaotic motion grows by more than the factor exp(GROWN). A rounding
+# error that makes a motion leave an unstable orbit grows by less, about 1e16 = exp(37).
 GROWN = 40.0
 # A Lyapunov exponent counts as 0 if its modulus is at most NEUTRAL standard errors.
 NEUTRAL = 3.0
-# Newton's method. LONGEST: longest period in forcing cycles. REACH: bound on the corrections.
+# Newton's method. LONGEST: longest period in forcing cycles. REACH: bound on the change of a state.
 LONGEST, REACH = 256, 1e-2
 # States lie on known closed curves if each is nearer than this to a known point of a curve.
 NEIGHBOUR = 1e-3
@@ -46,10 +46,10 @@ TURN, WANDERING = 0.05, 3.0
 
 @kernel
 def run_block(p, y, tangent, states, growth, stop):
-    """Run a motion and its `tangent` (1, 4), a small disturbance, for n forcing cycles.
+    """Run a motion and its `tangent` (1, 4) for n forcing cycles.
 
     For each cycle `states` (n, 4) receives the last state, and `growth` (n,) the logarithm of the
-    tangent's growth. Return the number of contacts, and whether the motion has escaped.
+    factor by which the tangent grows. Return the number of contacts and whether the motion escapes.
     """
     work = workspace()
     side = side_of(p, y)
@@ -150,7 +150,7 @@ def _grows(growth, mean, error):
 
 
 def _on_orbit(p, record, states, contacts, limit):
-    """Move a motion onto a stable orbit nearby; return the outcome, UNRESOLVED without an orbit."""
+    """Move a motion onto a stable orbit nearby; return the outcome, UNRESOLVED if none is found."""
     last, components = states[-1], 2 if contacts == 0 else 3
     before = states[-2 : -2 - LONGEST : -1]
     near = np.max(np.abs(before - last)[:, :components], axis=1) < NEAR

@@ -30,14 +30,14 @@ RING = 2 * LONGEST_PERIOD + 1
 # A motion is chaotic if its Lyapunov exponent exceeds CONFIDENCE standard errors. An exponent below
 # WEAK, in units of 1/T, is judged only at the end of a run.
 CONFIDENCE, WEAK = 4.0, 0.05
-# A tangent is a small disturbance of a motion. BLOCK: forcing cycles in a batch, over which its
-# growth is measured. RECENT: number of last batches in which it must still grow if there is chaos.
+# The growth of a tangent is measured in batches of BLOCK forcing cycles. If there is chaos, the
+# tangent must still grow in the last RECENT batches.
 BLOCK, RECENT = 10, 5
-# NEAR, NEAREST: largest and smallest distance from an orbit at which Newton's method is tried.
+# Newton's method is tried below the distance NEAR from an orbit. After each failure this distance
+# is divided by 10, down to NEAREST.
 NEAR, NEAREST = 1e-4, 1e-9
-# Early trials of Newton's method. EARLY: distances from an orbit at which they occur, above NEAR.
-# RETURNS: number of last distances, between states a period apart, that must have decreased.
-# For `is_linear`: NONLINEAR is a bound on the nonlinear part, APPROACH on the periods computed.
+# Newton's method is also tried at the larger distances EARLY, if the last RETURNS distances between
+# states a period apart have decreased. NONLINEAR, APPROACH: see `is_linear`.
 EARLY, RETURNS, NONLINEAR, APPROACH = (1e-2, 1e-3), 4, 0.1, 1000
 # Without forcing, a motion is at rest if its energy is at most this fraction of its first energy.
 REST = 1e-9
@@ -80,7 +80,7 @@ def follow_tangent(tangent, growth):
 
 @kernel
 def exponent(growth):
-    """Return a tangent's mean growth in a batch, its standard error, and whether it still grows."""
+    """Return the mean growth of a tangent in a batch, its error, and whether it still grows."""
     count = growth.periods // BLOCK
     recent = 0.0
     for i in range(RECENT):
@@ -117,8 +117,8 @@ def move_onto_orbit(p, y, periods, near, out):
 
     A motion that spirals towards an orbit may seem to repeat only after a multiple of the orbit's
     period. So the divisors of `periods` are tried first. Newton's method can fail near a grazing
-    contact. If it fails and `near` is NEAREST, the motion itself counts as the orbit, with NaN as
-    residual and multiplier.
+    contact. If it does, and `near` is NEAREST, the motion itself counts as the orbit. Residual and
+    multiplier are then NaN.
     """
     multiplier = complex(np.nan, np.nan)
     for n in range(1, periods + 1):
@@ -137,7 +137,7 @@ def move_onto_orbit(p, y, periods, near, out):
 
 @kernel_only
 def approaches(ring, k, n, weight):
-    """Return whether successive states n cycles apart have come closer, RETURNS times in a row."""
+    """Return whether the last RETURNS distances between states n cycles apart have decreased."""
     before = 0.0
     for j in range(RETURNS):
         if k < (j + 1) * n or (j + 1) * n >= RING:
@@ -154,9 +154,9 @@ def is_linear(p, y, ring, k, n, weight):
     """Return whether the approach to an orbit is so nearly linear that the motion will reach it.
 
     y is a state of the orbit, n its period. In a period a difference e from the orbit becomes
-    M e + r, with a matrix M and |r| <= c |e|^2. The motion is accepted if c times the sum of all
-    further |e| is small. The number c is measured in the last two periods. In longer runs none of
-    7 000 accepted motions left its orbit: at most 0.05 % leave (95 % confidence).
+    M e + r, with a matrix M and |r| <= c |e|^2. The number c is measured in the last two periods.
+    c times the sum of |e| over at most APPROACH further periods must not exceed NONLINEAR. In
+    longer runs none of 7 000 accepted motions left its orbit: at most 0.05 % do (95 % confidence).
     """
     _, matrix, contacts = period_map(p, y, n, POLISH_TOLERANCE)
     # A loose mass that drifts slowly may still reach a wall.
@@ -194,7 +194,7 @@ def push_forward(matrix, apart, ahead):
 
 @inlined
 def leave_transient(p, out):
-    """Compute an orbit's Lyapunov exponent from its multiplier, in place of the transient's."""
+    """Replace the Lyapunov exponent of the transient by the exponent of the orbit in `out`."""
     duration = out.period * 2.0 * math.pi / p[FREQUENCY]
     out.lyapunov_exponent = math.log(abs(out.multiplier)) / duration
     out.lyapunov_error = 0.0 if out.lyapunov_exponent < 0.0 else np.nan
@@ -229,7 +229,7 @@ def begin_watch(seen, index, out):
 
 @kernel_only
 def watch_free(p, y, seen, out):
-    """Judge a motion without forcing as `watch` does; replace a state near rest by exact rest."""
+    """Judge an unforced motion as `watch` does; replace a state near rest by exact rest."""
     left = energy(p, y)
     if seen.strobes == 0:
         seen.energy = left
