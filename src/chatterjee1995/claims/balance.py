@@ -1,4 +1,4 @@
-"""Evidence (numbers) on claims 1 to 3, from harmonic balance and from exact orbits."""
+"""Evidence on claims 1 to 3, by harmonic balance and exact orbits. Wp is the peak frequency."""
 
 import numpy as np
 import pandas as pd
@@ -87,7 +87,7 @@ def quiet_and_high(datasets):
 
 
 def _elastic_orbits(datasets):
-    """Return the part of the evidence on claim 3 that comes from the curves `ELASTIC`."""
+    """Return the part of the evidence on claim 3 from the simulated curves with elastic contact."""
     around, beside, pairs, single = [], [], [], []
     for name in reading.ELASTIC:
         branches, free = orbits.of_curve(datasets, name)
@@ -111,7 +111,7 @@ def _elastic_orbits(datasets):
 
 
 def design_multipliers(datasets):
-    """Return the largest modulus of the multipliers of each quiet orbit at Wp, figure 3."""
+    """Return for each design of figure 3 the largest modulus of a multiplier of its quiet orbit."""
     followed = reading.select(datasets, "design_orbit", ALL_DESIGNS)
     return np.array([reading.largest_multiplier(reading.design_point(each)) for each in followed])
 

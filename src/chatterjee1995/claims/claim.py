@@ -23,7 +23,7 @@ def part(share, digits=2) -> str:
 
 
 def rounding(distance) -> str:
-    """Return whether a printed number is rightly rounded. `misrounding` computes `distance`."""
+    """Return "a right rounding" if `distance`, an error by `misrounding`, is at most 1."""
     return "a right rounding" if distance <= 1 else "not a rounding"
 
 
@@ -70,12 +70,12 @@ class Bound(NamedTuple):
 class Claim:
     """A statement of the paper. `number` is "1" to "19", or "S1" to "S6" (misprints, omissions).
 
-    `evidence(datasets)` returns named numbers, NaN where the data do not determine a number. It
-    raises `Missing` if a dataset is missing. `finding` is a template, filled in with the numbers,
-    whose text must be true for every verdict. `reading` says how we read vague words. `required`
-    and `full_agreement` are dicts: bound as text -> meaning of the bounded number, or None if an
-    earlier bound gives the meaning. `figures` are names, the most important first. `verdicts` is
-    a dict: usual verdict -> words to print in its place.
+    `evidence(datasets)` returns a dict of numbers, NaN if the data do not determine a number, or
+    raises `Missing`. `finding` is a template for these numbers. `reading` says how we read vague
+    words. If a bound in `required` fails, the claim is not reproduced; if only bounds in
+    `full_agreement` fail, it is reproduced with a difference. Both dicts: bound as text -> meaning
+    of the number, or None if an earlier bound gives the meaning. `figures` are names, the most
+    important first. `verdicts` is a dict: usual verdict -> words to print in its place.
     """
 
     number: str
@@ -120,7 +120,7 @@ class Claim:
         return " ".join(parts)
 
     def sentences(self, values) -> str:
-        """Return the finding. If the claim is not decidable, say which numbers are unknown."""
+        """Return the finding, or, if the claim is not decidable, a list of the unknown numbers."""
         if self.verdict(values) != NOT_DECIDABLE:
             return " ".join(SENTENCES.from_string(self.finding).render(values).split())
         unknown = [words for name, words in self.meanings.items() if math.isnan(values[name])]

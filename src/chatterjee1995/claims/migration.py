@@ -17,7 +17,7 @@ def any_phase(datasets):
 
 
 def _release_shares(case, kind, free_motion="non_resonance"):
-    """Return for each damped motion of the kind `kind` the share of releases to `free_motion`."""
+    """Return the share of releases to `free_motion` for each motion of `kind` "quiet" and so on."""
     rows = case.damped_kind.values == flag("released_from", kind)
     shares = case.release_share.sel(free_motion=free_motion, bound="share").values[rows]
     return shares[np.isfinite(shares)]
@@ -44,8 +44,8 @@ def release_phase(datasets):
 def _scanned(datasets, case):
     """Return a dict: W -> whether the phase of release decides which motion follows.
 
-    The phase decides where some releases from one quiet motion lead to the non-resonance motion
-    and others to the subharmonic. Only scans with oscillator and damper of `case` are read.
+    The phase decides if some releases from one quiet motion lead to the non-resonance motion and
+    others to the subharmonic. Only release scans of the oscillator and damper of `case` are read.
     """
     wanted = oscillator_of(case), damper_of(case)
     found = {}
@@ -119,7 +119,7 @@ def early_release(datasets):
 
 
 def by_policy(datasets, case, policy):
-    """Return the share of runs that reach the goal by a release policy, and the median cycles."""
+    """Return for a policy the share of runs at the goal, and the median cycles of all runs."""
     damper, frequency = damper_of(case), reading.parameter(case, "frequency")
     names = "mass_ratio", "clearance", "restitution"
     for data in datasets.get("release_policies", {}).values():

@@ -17,13 +17,13 @@ SHALLOW = 0.02  # largest ratio of penetration to clearance at which the expansi
 
 
 def misrounding(printed, computed):
-    """Return the error of a printed number in half units of its last digit: 1 is still right."""
+    """Return the error of `printed` in half units of its last digit; 1 is still rightly rounded."""
     decimals = len(f"{printed:g}".partition(".")[2])
     return abs(printed - computed) * 2 * 10**decimals
 
 
 def penetration(datasets):
-    """Return the evidence on S1: the expansion of the contact force B for small penetration."""
+    """Return the evidence on S1, the expansion of the paper's contact force B at small depth."""
     design = reading.get(datasets, "harmonic_balance", CAPTIONS[0])
     mass_ratio, clearance, stiffness = reading.parameters(
         design, "mass_ratio", "clearance", "contact_stiffness"

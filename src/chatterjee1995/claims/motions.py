@@ -1,4 +1,4 @@
-"""Evidence (numbers) on claims 5 to 8 and 15: contacts, chaos and phases."""
+"""Evidence on claims 5 to 8 and 15: contacts, chaos and phases. Wp is the peak frequency."""
 
 import math
 
@@ -52,7 +52,7 @@ def high_and_chaotic(datasets):
 
 
 def _violent(datasets, name):
-    """Return the evidence on claim 6 from one curve, by its response and its branches."""
+    """Return the evidence on claim 6 from the datasets of one curve."""
     response = reading.get(datasets, "response", name)
     design = reading.get(datasets, "harmonic_balance", name)
     branches, free = orbits.of_curve(datasets, name)

@@ -36,7 +36,7 @@ def excess(datasets):
 
 
 def _sweeps(datasets, *keys, **fixed):
-    """Return the sweeps that have the values `fixed`, as a dict: values of `keys` -> sweeps."""
+    """Group the clearance sweeps with the parameters `fixed` by the parameters named `keys`."""
     groups = {}
     for sweep in datasets.get("optimum", {}).values():
         if all(reading.parameter(sweep, key) == value for key, value in fixed.items()):
@@ -83,7 +83,7 @@ def restitution(datasets):
 
 
 def _restitution_steps(group):
-    """Return ratios of each sweep to the sweep with the next larger e. `overall` spans all e."""
+    """Return ratios of optimum d0 and `_rise` for each step to a lower e. `overall`: all steps."""
     group = sorted(group, key=lambda sweep: -reading.parameter(sweep, "restitution"))
     return [
         {

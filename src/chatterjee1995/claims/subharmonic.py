@@ -11,7 +11,7 @@ AS_LARGE = 0.95  # a subharmonic counts as unchanged if max |Z1| / (free max |Z1
 
 
 def _remaining(datasets, name):
-    """Return over how much of W a subharmonic is stable, and its size relative to the free one."""
+    """Return the widths in W with a stable subharmonic, and largest max |Z1| / (free max |Z1|)."""
     branches, free = orbits.of_curve(datasets, name)
     part = orbits.stable_subharmonics(branches)
     edges = reading.band_edges(reading.get(datasets, "harmonic_balance", name))
@@ -56,9 +56,9 @@ def by_damping(datasets):
 def _reduction(datasets, name):
     """Return how much a damper reduces the subharmonic, where it exists without the damper.
 
-    `fall` is the mean reduction of max |Z1|; for starts that lead to another motion, max |Z1|
-    counts as 0. `relative` is `fall` divided by the mean max |Z1| without damper. `unchanged` is
-    the share of the range of W in which a damper hardly reduces a stable subharmonic.
+    `fall` is the mean reduction of max |Z1| over W and starts. For a start that leads to no
+    subharmonic, max |Z1| counts as 0. `relative` is `fall` over the mean free max |Z1|. `unchanged`
+    is the share of the range of W in which a damper hardly reduces a stable subharmonic.
     """
     branches, free = orbits.of_curve(datasets, name)
     ends = orbits.subharmonic_range(free)

@@ -60,7 +60,7 @@ def claims(datasets) -> pd.DataFrame:
 
 
 def document(frame, picture=None, drawn=None) -> str:
-    """Return the Markdown page of the claims. `picture(name)` returns the Markdown of a figure."""
+    """Return the Markdown page of the claims, with `picture(name)` of each figure in `drawn`."""
     picture = picture or (lambda name: f"![{name}](../figures/{name}.png)")
     rows = frame.to_dict("records")
     for row in rows:

@@ -1,4 +1,4 @@
-"""Figure kind `accuracy`: errors of methods over floating-point operations, on test cases."""
+"""Figure kind `accuracy`: errors of methods over floating-point operations, on scenes."""
 
 from itertools import cycle
 
@@ -10,7 +10,7 @@ from chatterjee1995.methods.labels import colour_of, method_in_words
 from impact_damper.data.datasets import decode, parameters_of
 from impact_damper.plot import style
 
-# Model in `orbit_models` -> colour, marker, line.
+# Name of a model of the module `orbit_models` -> colour, marker, line.
 MODELS = {
     "rigid": (style.GREY, "s", "none"),
     "rigid_mended": (style.GREY, "D", "none"),
@@ -20,7 +20,7 @@ MODELS = {
     "shooting": (style.BLACK, "*", "none"),
 }
 LOCATED = {True: ("^", "-"), False: ("v", ":")}  # method locates contacts -> marker, line
-OTHER_ORDERS = [("<", "--"), (">", "-."), ("d", ":")]  # marker, line of other Taylor series
+OTHER_ORDERS = [("<", "--"), (">", "-."), ("d", ":")]  # marker, line of other Taylor orders
 # Quantity whose error is drawn -> its name in the dataset, label of the axis.
 QUANTITIES = {
     "amplitude": ("amplitude_error", r"Relative error of max $|Z_1|$"),
@@ -38,7 +38,7 @@ DOUBTFUL = "open: wrong number of contacts, or\nchaos within its standard error"
 
 @style.context()
 def draw_accuracy(*, accuracy):
-    """Draw errors over operations, a panel for each test case, a marker for each method."""
+    """Draw errors over operations, a panel for each scene, a marker for each method."""
     drawn, panels = style.grid(len(accuracy), 2.4, 1.5)
     for axes, data in zip(panels, accuracy, strict=True):
         _panel(axes, data)
@@ -49,7 +49,7 @@ def draw_accuracy(*, accuracy):
 
 
 def _panel(axes, data):
-    """Draw the panel of one test case."""
+    """Draw the panel of one scene."""
     made = parameters_of(data)
     quantity, chaotic = made["accuracy"]["quantity"], made["motion"] == "chaotic"
     name, label = QUANTITIES[quantity]
@@ -88,7 +88,7 @@ def _panel(axes, data):
 
 
 def _errors(axes, data, quantity):
-    """Return errors of a chaotic case and standard errors. Shade the error of the reference."""
+    """Return errors and standard errors of averages in chaos. Shade the error of the reference."""
     of = data.sel(statistic=quantity)
     truth = float(of["reference_average"])
     doubt = float(of["reference_average_error"]) / truth
@@ -97,7 +97,7 @@ def _errors(axes, data, quantity):
 
 
 def _method(axes, role, work, error, bars, good, bad):
-    """Draw the runs of one method. Doubtful runs get open markers."""
+    """Draw a method's runs: open markers for `bad` runs and errors below their standard error."""
     label, color, marker, line = role
     looks, ended = {"color": color, "markersize": 4}, good | bad
     if bars is None:

@@ -1,4 +1,4 @@
-"""Figures of the errors of harmonic balance, over the number of harmonics and as maps."""
+"""Figures of the errors of harmonic balance, over the highest harmonic and as maps."""
 
 import numpy as np
 from matplotlib.colors import ListedColormap

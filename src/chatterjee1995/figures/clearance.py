@@ -95,7 +95,7 @@ def _draw_errors(axes, datasets):
 
 @style.context()
 def draw_studies(*, studies):
-    """Draw maps of the largest displacement, a panel for each restitution and frequency."""
+    """Map the largest displacement over mass ratio and clearance, by restitution and frequency."""
     (data,) = studies
     pairs = list(product(data["restitution"].values, data["frequency"].values))
     rows, columns = data.sizes["restitution"], data.sizes["frequency"]

@@ -21,7 +21,7 @@ MOTIONS = (
 
 @style.context()
 def draw_contact_model(*, contact_model):
-    """Draw the error of e for both rules by which a contact can end, and simulated contacts."""
+    """Draw the error of e if contacts end at zero depth or zero force, and simulated contacts."""
     drawn = style.figure("double", 4.0)
     panels = drawn.subplots(1, 2, sharex=True, sharey=True)
     data = contact_model[0]

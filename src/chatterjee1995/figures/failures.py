@@ -10,7 +10,7 @@ from impact_damper.plot.maps import edges_of
 
 COLUMNS = 3  # panels side by side
 LINEAR = "linear stability limit"
-# Lines for both accuracies, in the order of the dataset, and for the linear stability limit.
+# Allowed error of max |Z1|, in the order of the dataset, or linear stability limit -> line.
 LINES = {
     "within 1 %": {"marker": "o", "markerfacecolor": style.WHITE, "linestyle": (0, (4, 2))},
     "within 10 %": {"marker": "s"},
@@ -66,7 +66,7 @@ def _panel(axes, data, name):
 
 @style.context()
 def draw_stable_steps(*, stable_steps):
-    """Draw the largest stable step over contact stiffness, one panel for each damper."""
+    """Draw the largest accurate step over contact stiffness, one panel for each damper."""
     drawn = style.figure("double", 3.9)
     panels = drawn.subplots(1, len(stable_steps), sharey=True, squeeze=False)[0]
     for axes, data in zip(panels, stable_steps, strict=True):
@@ -88,7 +88,7 @@ def draw_stable_steps(*, stable_steps):
 
 
 def _draw_method(axes, data, index, title):
-    """Draw the largest steps of a method for each accuracy, and its linear stability limit."""
+    """Draw the largest accurate steps of a method for each allowed error, and its linear limit."""
     looks = dict(zip(data["accuracy"].values, list(LINES.values())[:2], strict=True))
     for accuracy, look in looks.items():
         step = data["stable_step"].sel(accuracy=accuracy) * data["contact_frequency"]

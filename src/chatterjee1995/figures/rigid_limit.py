@@ -1,4 +1,4 @@
-"""Figure kind `rigid_limit`: errors of rigid walls over contact stiffness and frequency."""
+"""Figure kind `rigid_limit`: errors if walls are taken as rigid, over r1 and frequency."""
 
 import numpy as np
 from matplotlib.colors import LogNorm

@@ -28,7 +28,7 @@ class Band(NamedTuple):
 
 
 def high_motions(response, free):
-    """Return a mask of violent motions. At a W above the end of the free resonance none is."""
+    """Return a mask of violent motions. None is violent above the end of the free resonance."""
     frequency = response.frequency
     size = xr.DataArray(orbits.resonance(free, frequency), {"frequency": frequency})
     return reading.touching(response) & (response.maximum_displacement > orbits.HALF * size)

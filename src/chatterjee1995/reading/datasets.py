@@ -8,7 +8,7 @@ import numpy as np
 from impact_damper.data.datasets import decode, flag, has_damper, named, parameters_of
 
 # Names of curves. CAPTIONS and RULES are sorted by omega_l, BY_MASS by rm.
-CAPTIONS = ("figure_05a", "figure_03b", "figure_03a")  # figure 3 with d0 of the captions
+CAPTIONS = ("figure_05a", "figure_03b", "figure_03a")  # figure 3, printed d0; 5 (a) is 3 (c)
 RULES = ("figure_03c_rule", "figure_03b_rule", "figure_03a_rule")  # CAPTIONS with d0 by rule (19)
 BY_MASS = ("figure_05a", "figure_05b", "figure_05c")  # figure 5
 ELASTIC = (*BY_MASS, "figure_08")  # all simulated responses with elastic contact

@@ -33,11 +33,11 @@ def of_curve(datasets, name):
 def pieces(branches) -> pd.DataFrame:
     """Return a table of the pieces of branches. A piece joins two successive orbits of a branch.
 
-    `lower` and `upper` are the lowest and highest W. `frequency`, `size` (max |Z1|), `amplitude`
-    and `loose` are means of both orbits. Columns such as `size_change` hold the differences, second
-    orbit minus first. `amplitude` and `loose` are the complex first harmonic of Z1, with the phase
-    relative to Z2 and to Z1 - Z2. `fewest` and `contacts` are the least and the largest number of
-    contacts. `restitution` is the least ratio of departure speed to approach speed.
+    `lower` and `upper` are the lowest and highest W. `amplitude` and `loose` are the complex first
+    harmonic of Z1: the phase of `amplitude` is relative to Z2, the phase of `loose` to the loose
+    mass, Z1 - Z2. Both, `frequency` and `size` (max |Z1|) are means of the two orbits; the columns
+    `size_change` and so on are the second orbit minus the first. `fewest` and `contacts` are the
+    least and most contacts. `restitution` is the least ratio of departure to approach speed.
     """
     number = branches.orbit_branch.values
     first = np.flatnonzero(number[1:] == number[:-1])

@@ -29,7 +29,7 @@ TRUTHS = {
 
 
 def harmonic_balance(datasets) -> pd.DataFrame:
-    """Return a table of curves: d0 by rule (19), and amplitudes at the peak frequency Wp."""
+    """Return a table of designs (curves with a damper): d0 by rule (19), and amplitudes at Wp."""
     rows = []
     for name, data in reading.damped(datasets, "harmonic_balance").items():
         peak = float(data.peak_frequency)
@@ -116,7 +116,7 @@ def _convergence(data):
 
 
 def _needed(highest, error, accuracy):
-    """Return the number of harmonics from which on all errors are at most `accuracy`, or NaN."""
+    """Return the highest harmonic N from which on all errors are at most `accuracy`, or NaN."""
     above = np.flatnonzero(~(error <= accuracy))
     first = above[-1] + 1 if len(above) else 0
     return highest[first] if first < len(highest) else np.nan

@@ -61,7 +61,7 @@ def design_rules(datasets) -> pd.DataFrame:
 
 
 def _grids(datasets):
-    """Yield a frame for each grid, with one row for each design, criterion and rule."""
+    """Yield a frame for each dataset: rows by damper, frequency, smallest quantity and rule."""
     for name, data in datasets.get("design_rules", {}).items():
         named = {name: decode(data[name]) for name in ("best_kind", "best_stability")}
         cells = data.assign(named).to_dataframe().reset_index()
@@ -73,7 +73,7 @@ def _grids(datasets):
 
 
 def _sweeps(datasets):
-    """Yield a frame for each sweep, with columns as in `_grids`. Optima of sweeps are stable."""
+    """Yield a frame for each clearance sweep, as in `_grids`. All simulated optima are stable."""
     for data in datasets.get("optimum", {}).values():
         parameters = parameters_of(data)
         oscillator, damper = oscillator_of(data), damper_of(data, clearance=1.0)
@@ -94,7 +94,7 @@ def _sweeps(datasets):
 
 
 def _agreement(cells):
-    """Return how well one rule predicts the optimum d0 of the designs in a group."""
+    """Return how well one rule predicts the optimum d0 of the dampers in a group."""
     error = 100 * (cells.rule_ratio / cells.best_ratio - 1).abs()
     excess = 100 * cells.rule_excess
     return (

@@ -19,7 +19,7 @@ def _count(values, meaning):
 
 
 def contact_model(datasets) -> pd.DataFrame:
-    """Return a table of both rules by which a contact can end, with counts of map cells."""
+    """Return a table of contacts that end at zero depth or zero force, with counts of map cells."""
     rows = []
     for name, data in datasets.get("contact_model", {}).items():
         for rule in data.exit_rule.values:
@@ -52,7 +52,7 @@ def _unloaded(data):
 
 
 def rigid_limit(datasets) -> pd.DataFrame:
-    """Return a table of dampers: errors of rigid walls, and counts of map cells."""
+    """Return a table of dampers: errors if walls are taken as rigid, and counts of map cells."""
     rows = []
     for name, data in datasets.get("rigid_limit", {}).items():
         own = data.sel(frequency=reading.parameter(data, "frequency"), method="nearest")
@@ -89,7 +89,7 @@ VERDICTS = {
 
 
 def _needed(own):
-    """Return for each error level the r1 above which rigid walls err less, or why it is unknown."""
+    """Return the r1 above which rigid walls err less than each threshold. `own`: data at one W."""
     columns = {}
     for k, level in enumerate(own.threshold.values):
         value = float(own.needed_stiffness[k])

@@ -21,7 +21,7 @@ WORDS = {
 
 
 def models(datasets) -> pd.DataFrame:
-    """Return a table with one run of each method on each scene: cheapest accurate run, or best."""
+    """Return a table: for each scene and method the cheapest accurate run, or else the best run."""
     rows = []
     for name, data in datasets.get("accuracy", {}).items():
         asked = parameters_of(data)["accuracy"]
@@ -79,7 +79,7 @@ def _most_accurate(data, method):
 
 
 def _errors(of):
-    """Return the columns with the errors of a run on a scene without chaos."""
+    """Return the columns with the errors of a run `of` on a scene without chaos."""
     return {
         "error of max |Z1|": float(of.amplitude_error),
         "error of the state": float(of.state_error),
@@ -89,7 +89,7 @@ def _errors(of):
 
 
 def _averages(data, of):
-    """Return columns with the averages of a run on a chaotic scene, and reference values."""
+    """Return columns with the averages of a run `of` on a chaotic scene, and reference values."""
     row = {}
     heads = {"contact_rate": "contacts a cycle", "displacement": "mean max |Z1|"}
     for key, head in (heads | {"exponent": "Lyapunov exponent"}).items():
@@ -130,7 +130,7 @@ def missed_contacts(datasets) -> pd.DataFrame:
 
 
 def stable_steps(datasets) -> pd.DataFrame:
-    """Return a table of the largest accurate step, for each method, accuracy and stiffness r1."""
+    """Return a table of the largest accurate step, by method, allowed error and stiffness r1."""
     rows = []
     for name, data in datasets.get("stable_steps", {}).items():
         cycle = 2 * np.pi / reading.parameter(data, "frequency")

@@ -1,4 +1,4 @@
-"""Tables of migration control: cases, scans and policies. A release switches the damper off."""
+"""Tables of migration: cases, release scans, policies. A release switches the damper off."""
 
 import numpy as np
 import pandas as pd
@@ -58,7 +58,7 @@ def _destination(motion):
 
 
 def release_scan(datasets) -> pd.DataFrame:
-    """Return a table of scans: the free motions to which releases lead, with ranges of W."""
+    """Return a table of release scans: the free motions to which releases lead, by range of W."""
     rows = []
     for name, scan in datasets.get("release_scan", {}).items():
         ends = list(scan.free_motion.values)
@@ -97,7 +97,7 @@ def _ranges(grid, chosen):
 
 
 def release_policies(datasets) -> pd.DataFrame:
-    """Return a table of release policies: success, cycles and cost, for each damper and W."""
+    """Return a table of release policies: success, cycles and impacts, for each damper and W."""
     rows = []
     for data in datasets.get("release_policies", {}).values():
         dims = ("case", "frequency", "policy")
