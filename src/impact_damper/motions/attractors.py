@@ -1,4 +1,4 @@
-"""Attractors, labels of states, and the release set of migration control.
+"""Attractors, labels of states, and release sets: all states that lead to the goal of migration.
 
 An attractor is a stable orbit. The label of a state names the attractor to which the state leads. A
 neighbourhood is an ellipse around a state of a free orbit at the strobe (W T = pi/2). Every motion
@@ -26,8 +26,8 @@ STEPS, FACTOR, HALVINGS = 256, 0.98, 30
 # ALIKE: two free orbits are equal if their states at the strobe differ by less than this number.
 # SAME: two motions with the damper are equal if their max |Z1| differ by less than this fraction.
 ALIKE, SAME = 1e-6, 1e-5
-# Grid of states in the search for orbits. REACH: full width of the grid in Z1, divided by the
-# largest |Z1| of free motions; the same in Z1'. SEARCHED: number of grid points along each axis.
+# Grid of states in the search for orbits. SEARCHED: number of grid points along each axis. REACH:
+# width in Z1 divided by the largest |Z1| of free motions, and width in Z1' by the largest |Z1'|.
 REACH, SEARCHED = 3.0, 24
 # Labels of unsettled motions, by outcome. The label of a settled motion is its attractor's index.
 LABELS = {
@@ -105,7 +105,7 @@ def _distinct(p, motions):
 
 
 def linear_flow(p, state, periods):
-    """Return Z1 (n,) along an orbit, and the derivatives (n, 2, 2) of states by the first state."""
+    """Return Z1 (n,) at n times along an orbit, and the derivatives (n, 2, 2) by `state` there."""
     y, tangents, work = np.tile(state, 2), np.eye(4)[:2].copy(), workspace()
     times = strobe_time(p) + np.arange(periods * STEPS + 1) * 2 * np.pi / (STEPS * p[FREQUENCY])
     displacement, matrices = [y[0]], [np.eye(2)]
@@ -140,8 +140,8 @@ def neighbourhood(p, state, periods):
 def _radius(coefficients, step, contraction):
     """Return the largest r(0) for which `contraction` r(P) < FACTOR r(0). P is the orbit's period.
 
-    r(t) is a bound on the distance from the orbit, with r' = a r^2 + b r^3 and `coefficients`
-    a, b >= 0. A step overestimates r, because it uses the slope at a larger value, `ahead`.
+    `contraction` is the largest modulus of a multiplier. r(t) bounds the nonlinear growth of the
+    distance from the orbit: r' = a r^2 + b r^3 with `coefficients` a, b >= 0. Steps overestimate r.
     """
     low, high = 0.0, 10.0
     for _ in range(HALVINGS):
@@ -203,7 +203,7 @@ class ReleaseSet(NamedTuple):
 
 
 def release_set(oscillator, frequency, settling, *, cells=64, workers=1) -> ReleaseSet:
-    """Compute the release set at one frequency, on a grid of states for each of PHASES phases.
+    """Compute the release set for each of PHASES phases, on a grid of `cells`^2 coarse cells.
 
     The goal equals its mirror image. So the set at the phase W T + pi is the mirror image of the
     set at the phase W T, and motions are run only from phases below pi.
@@ -235,7 +235,7 @@ def release_set(oscillator, frequency, settling, *, cells=64, workers=1) -> Rele
 
 
 def _refined(inside, half, cells):
-    """Return the mask of the fine cells in a set. `inside(states)` tells which states are in it."""
+    """Return a mask of the fine cells in a set. `inside(states)` is True for states in the set."""
     mask = inside(_centres(half, cells)).reshape(cells, cells)
     for _ in range(int(math.log2(REFINED))):
         edge = maximum_filter(mask, 3) != minimum_filter(mask, 3)

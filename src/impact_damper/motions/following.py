@@ -56,10 +56,10 @@ def follow(
     """Follow an orbit from one value of a parameter to another, or as far as possible.
 
     `correct(value, predicted state)` returns an orbit (None on failure) and a status. The first
-    step goes all the way to `target`. A step fails if `correct` fails, or if Z1, Z1' or Z2 changes
-    by `reach` or more, since the new orbit may lie on another branch. After a failure the step is
-    halved, after a success multiplied by `growth`. Following stops if a step is below `shortest`.
-    An orbit `behind`, at the parameter value 2 start - target, improves the first prediction.
+    step goes to `target`. A step fails if `correct` fails, or if Z1, Z1' or Z2 changes by `reach`
+    or more. A failure halves the step, a success multiplies it by `growth`. Following stops if a
+    step is below `shortest`. If `extrapolating`, a prediction lies on the line through the last two
+    orbits. `behind` is an orbit before the first, at the parameter value 2 start - target.
     """
     value, step, status = start, target - start, ""
     before, last_step = (start, orbit), target - start
@@ -87,7 +87,7 @@ def follow_stable(p, state, periods, parameter, target) -> tuple:
 
     Following stops where Newton's method fails (for example at a fold), or where the orbit jumps,
     becomes unstable or repeats after fewer than `periods` cycles. Return the packed parameters and
-    the `StrobeOrbit` at the last value, which is exactly `target` if nothing stops the following.
+    the `StrobeOrbit` at the last value, which is exactly `target` if the target is reached.
     If Newton's method fails at every value, return the given state and the multiplier NaN.
     """
     # A period from a record is a two-byte integer. For that type numba would compile kernels again.
@@ -114,6 +114,6 @@ def follow_stable(p, state, periods, parameter, target) -> tuple:
 
 
 def record_at(p, state, periods, parameter, value, tolerance=POLISH_TOLERANCE):
-    """Follow a stable orbit to a parameter value; return its record there, or None if it ends."""
+    """Follow a stable orbit to a parameter value; return its record, or None if the branch ends."""
     p, orbit = follow_stable(p, state, periods, parameter, value)
     return measured(p, orbit.state, periods, tolerance) if p[parameter] == value else None

@@ -1,4 +1,4 @@
-"""Legs of a run of migration control. A leg is the motion between two switchings of the damper.
+"""Legs of a run of migration control. In a leg the damper stays on, or stays off.
 
 Z1 and Z1' are continuous in the whole run. Switching the damper does not change them, and a settled
 motion goes on from its own last state, not from the exact state of its orbit.
@@ -29,7 +29,7 @@ def run(p, y, ahead, strobe, tolerance, limit, stop=NEVER):
     The motion begins in the state y (4,), `ahead` forcing cycles before its first strobe. The last
     state replaces y. Return the path and a record (`MOTION`), with measurements if the motion has
     settled. The path (m, 5) has a row for the beginning and one for each strobe. A row holds the
-    time in forcing cycles and the state. The time of the first strobe is the number `strobe`.
+    time in forcing cycles and the state. The first strobe has the time `strobe`.
     """
     records, path = np.zeros(1, MOTION), np.empty((limit + 2, 5))
     out = records[0]
@@ -55,7 +55,7 @@ def run(p, y, ahead, strobe, tolerance, limit, stop=NEVER):
 
 @kernel
 def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, path, out):
-    """Do the strobes `first`, ..., `last` - 1 of `run`; return the new values of `side`, `near`."""
+    """Do `run` from strobe `first` to strobe `last`; return `side` and `near` (see `watch`)."""
     work = workspace()
     none = np.empty((0, 4))
     for k in range(first, last):
@@ -85,7 +85,7 @@ def leg(before, after, y, wait, place, strobe, tolerance, limit, stop=NEVER):
 
 
 def wait_and_switch(before, after, y, wait, place, tolerance):
-    """Run from a strobe for `wait` forcing cycles, then switch the damper; return that time T.
+    """Run from a strobe for `wait` forcing cycles, then switch the damper; return the last time.
 
     `before` and `after` are the packed parameters before and after the switching. Switching the
     damper on sets Z2 to `place` times the clearance, and Z2' to 0.
@@ -123,7 +123,7 @@ def hold_by_state(off, on, y, wait, place, strobe, tolerance, longest, releases)
 
 @kernel
 def depth_of(depth, half, phase, x, v):
-    """Return a `ReleaseSet`'s `depth` at Z1 = x, Z1' = v, or -infinity outside its grid."""
+    """Return `ReleaseSet.depth` at a phase index, Z1 = x and Z1' = v, or -infinity off its grid."""
     if not (abs(x) <= half[0] and abs(v) <= half[1]):
         return -math.inf
     cells = depth.shape[1]
@@ -137,9 +137,9 @@ def hold(on, y, side, begin, limit, rule, draw, depth, half, tolerance, path, wo
     """Run a motion with the damper on, from the time `begin` until a rule ends the run.
 
     `rule` is (kind, n, k). A HOLD run ends after n forcing cycles. A PHASE run ends after n cycles,
-    when the forcing first has the phase with the index k. A STATE run ends in the release set, or
-    after n cycles. A SETTLED run ends after the strobe states repeat, at the fraction `draw` of the
-    next period. Each strobe fills a row of `path` (m, 5): forcing cycles since `begin`, and state.
+    when W T next is 2 pi k/PHASES. A STATE run ends when the state is in the release set, or after
+    n cycles. A SETTLED run ends after the strobe states repeat, at the fraction `draw` of the next
+    period. A row of `path` (m, 5) is a strobe: forcing cycles since `begin`, and the state.
     Return the last time, whether the rule ended the run within `limit` cycles, and the number of
     contacts begun.
     """

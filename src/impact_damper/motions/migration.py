@@ -75,9 +75,9 @@ def migrate(
     periods : int
         After this number of forcing cycles in a run the damper is not switched on again.
     switchings : int
-        Largest number of switchings; switching on and then off is one switching.
+        Largest number of switchings. In a switching the damper is switched on, then off.
     settling : Settling, optional
-        Settings of the runs. For runs with the damper only the `tolerance` is used.
+        Settings of the runs. Runs with the damper use only `tolerance`.
 
     Returns
     -------
@@ -85,7 +85,7 @@ def migrate(
         For each `time` T: the displacement of the primary mass. For each `switching`: the times T
         at which the damper is switched on, the damper is switched off, and the free motion has
         settled; the kinds of motion before and after switching off. For the run: whether it reaches
-        the small motion, the number of switchings, and durations in forcing cycles.
+        the small motion, the number of switchings, forcing cycles with the damper on and in all.
 
     Raises
     ------
@@ -192,10 +192,10 @@ def control(case, draws, longest_hold, settling, periods, releases, stop=NEVER):
     """Return the path and the log (`SWITCHING`) of one run of migration control.
 
     A row of `draws` holds three random numbers from 0 to 1: the wait before switching on, the place
-    of the loose mass in the gap, and the wait before switching off. A wait is a fraction of the
-    motion's period. `releases` is the `ReleaseSet`, or None for release after settling. The path
-    (m, 5) has a row for each strobe and each switching. A row holds the time, in forcing cycles
-    since the first strobe, and the state.
+    of the loose mass (0: at one wall, 1: at the other wall), the wait before switching off. Waits
+    are in periods of the motion. `releases` is the `ReleaseSet`, or None to release after settling.
+    The path (m, 5) has a row for each strobe, switching on and switching off. A row holds the time,
+    in forcing cycles since the first strobe, and the state.
     """
     y, period, strobe, path = case.state.copy(), 1, 0.0, []
     tolerance, limit = settling.tolerance, settling.limit
@@ -263,7 +263,7 @@ def switching_data(logs, case):
 
 
 def run_totals(logs):
-    """Return dataset variables that describe whole runs, from the first `on_time`, as a dict."""
+    """Return dataset variables of whole runs as a dict. A run begins at its first `on_time`."""
     first = logs["on_time"][..., 0]
     reached = np.any(logs["destination"] == FREE_MOTION["non_resonance"], axis=-1)
     yes, no = (flag("trial_outcome", name) for name in ("reached", "not_reached"))

@@ -20,7 +20,7 @@ from impact_damper.model.packed import FREQUENCY
 from impact_damper.motions.strobe_map import STROBE, distance, speed_weight, strobe_time
 from impact_damper.motions.traces import record_beginning
 
-# A harmonic below this fraction of another harmonic is a rounding error, and has no phase.
+# A reference harmonic below this fraction of another harmonic is a rounding error, without phase.
 PHASELESS = 1e-9
 # A motion is symmetric if its asymmetry is below this number.
 SYMMETRIC = 1e-6
@@ -40,8 +40,8 @@ ESCAPED, AT_REST, QUASI_PERIODIC, DRIFTING = range(5, 9)
 # period       period of the orbit in forcing cycles, 0 without an orbit
 # periods_run  forcing cycles until the outcome was known
 # residual     largest component of the difference between states a period apart
-# state        state at the strobe: on the orbit if settled, otherwise the last state of the run
 # reach        largest (Z1^2 + (Z1'/W)^2)^(1/2) at a strobe after the first patience/2 cycles
+# state        state at the strobe: on the orbit if settled, otherwise the last state of the run
 WATCHED = "residual lyapunov_exponent lyapunov_error first_frequency second_frequency"
 MEASURED = "maximum_displacement contacts asymmetry"
 MOTION = np.dtype(
@@ -104,7 +104,7 @@ def survey(p, states, phases, times, tolerance, log, sums):
 
 @kernel_only
 def add_samples(c, order, moments, sample, count, sums):
-    """Add a polynomial's values at `count` moments to `sums`, times COSINE and times SINE."""
+    """Add values v of the polynomial c at `count` times: v COSINE to sums[0], v SINE to sums[1]."""
     t0, t1, t2, t3 = moments
     v0 = v1 = v2 = v3 = c[order]
     for k in range(order - 1, -1, -1):
@@ -143,7 +143,7 @@ def measure_orbit(p, periods, tolerance, out):
 
 @kernel
 def measure_orbits(parameters, tolerance, out, stop):
-    """Measure the orbits in `out`. Records without a `period` receive NaN, and infinite |Z1|.
+    """Measure the orbits in `out`. A record without a `period` receives NaN and infinite max |Z1|.
 
     An orbit is integrated over its period, from its state at the strobe. If the period is odd, the
     asymmetry is the distance between the mirrored first state and the state half a period later;
@@ -162,7 +162,7 @@ def measure_orbits(parameters, tolerance, out, stop):
 
 @kernel
 def follow_each(parameters, states, cycles, tolerance, contacts, largest):
-    """Do the same as `ensemble.follow_many`, but run the motions one after the other."""
+    """Run motions as `ensemble.follow_many` does, but one after the other."""
     work = workspace()
     for i in range(len(states)):
         p, y = parameters[i], states[i]
@@ -175,8 +175,8 @@ def follow_each(parameters, states, cycles, tolerance, contacts, largest):
 def measure(parameters, settling, out, stop, follow=follow_each):
     """Measure motions from their states at the strobe; complete their records `out`.
 
-    The kernel `follow` runs a motion without a period for `settling.watched` cycles, to measure the
-    largest |Z1| and the mean number of contacts in a cycle, but nothing else.
+    The kernel `follow` runs a motion without a period for `settling.watched` cycles. Its record
+    receives the largest |Z1| and the mean number of contacts in a cycle, and otherwise NaN.
     """
     measure_orbits(parameters, settling.tolerance, out, stop)
     watched = settling.watched
@@ -199,13 +199,13 @@ def measured(p, y, periods, tolerance):
 
 
 def is_symmetric_pair(motions):
-    """Return whether motions are symmetric, of period 1, and have two contacts in a cycle."""
+    """Return for each motion whether it is symmetric, of period 1, with two contacts in a cycle."""
     two = (motions["contacts"] == 2) & (motions["period"] == 1)
     return two & (motions["asymmetry"] < SYMMETRIC)
 
 
 def phase_of(harmonic, reference):
-    """Return phases of harmonics relative to `reference`, NaN if `reference` is negligible."""
+    """Return phases of harmonics relative to the harmonic `reference`, or NaN (see PHASELESS)."""
     phaseless = np.abs(reference) <= PHASELESS * np.abs(harmonic)
     return np.where(phaseless, np.nan, np.angle(harmonic * np.conj(reference)))
 
