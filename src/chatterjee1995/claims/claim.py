@@ -71,10 +71,10 @@ class Claim:
     """A statement of the paper. `number` is "1" to "19", or "S1" to "S6" (misprints, omissions).
 
     `evidence(datasets)` returns a dict of numbers, NaN if the data do not determine a number, or
-    raises `Missing`. `finding` is a template for these numbers. `reading` says how we read vague
-    words. If a bound in `required` fails, the claim is not reproduced; if only bounds in
-    `full_agreement` fail, it is reproduced with a difference. Both dicts: bound as text -> meaning
-    of the number, or None if an earlier bound gives the meaning. `figures` are names, the most
+    raises `Missing`. `finding` is a template for these numbers, true for every verdict. `reading`
+    says how we read vague words. If a bound in `required` fails, the claim is not reproduced; if
+    only bounds in `full_agreement` fail, it is reproduced with a difference. Keys are bounds as
+    text, values what the number means (None: as for an earlier bound). `figures` are names, most
     important first. `verdicts` is a dict: usual verdict -> words to print in its place.
     """
 

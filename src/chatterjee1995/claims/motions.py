@@ -141,6 +141,6 @@ def _duration(restitution):
 
 
 def _pull_free_error(restitution):
-    """Return the relative error of the nominal restitution for a wall that cannot pull."""
+    """Return by which fraction the true restitution of a wall that cannot pull exceeds e."""
     damping = damping_ratio(restitution)
     return math.exp(2 * math.asin(damping) * damping * _duration(restitution)) - 1

@@ -35,9 +35,9 @@ def pieces(branches) -> pd.DataFrame:
 
     `lower` and `upper` are the lowest and highest W. `amplitude` and `loose` are the complex first
     harmonic of Z1: the phase of `amplitude` is relative to Z2, the phase of `loose` to the loose
-    mass, Z1 - Z2. Both, `frequency` and `size` (max |Z1|) are means of the two orbits; the columns
+    mass, Z1 - Z2. `amplitude`, `loose`, `frequency` and `size` (max |Z1|) are means of two orbits;
     `size_change` and so on are the second orbit minus the first. `fewest` and `contacts` are the
-    least and most contacts. `restitution` is the least ratio of departure to approach speed.
+    least and most contacts a cycle, `restitution` the least ratio of departure to approach speed.
     """
     number = branches.orbit_branch.values
     first = np.flatnonzero(number[1:] == number[:-1])

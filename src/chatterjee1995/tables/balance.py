@@ -76,7 +76,7 @@ def _exact_orbit(orbit):
 
 
 def harmonic_convergence(datasets) -> pd.DataFrame:
-    """Return a table of motions: harmonics needed, decay of the error, results of cold starts."""
+    """Return a table of motions: highest harmonic needed, decay of error, result of cold starts."""
     return pd.DataFrame(
         {"motion": name} | _convergence(data)
         for name, data in datasets.get("harmonic_convergence", {}).items()

@@ -61,7 +61,7 @@ def design_rules(datasets) -> pd.DataFrame:
 
 
 def _grids(datasets):
-    """Yield a frame for each dataset: rows by damper, frequency, smallest quantity and rule."""
+    """Yield a frame for each grid, a row for each damper, frequency, minimised quantity, rule."""
     for name, data in datasets.get("design_rules", {}).items():
         named = {name: decode(data[name]) for name in ("best_kind", "best_stability")}
         cells = data.assign(named).to_dataframe().reset_index()
