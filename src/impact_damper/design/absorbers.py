@@ -1,9 +1,9 @@
 """Tuned absorbers: the tuning of an absorber to a machine, and the response in closed form.
 
 The machine has mass m1, stiffness k, damping c. The absorber has mass m, stiffness ka, damping ca.
-w is the angular frequency. Let K = k + i c w - m1 w^2 and L = ka + i ca w. The absorber's
-acceleration is q = L/(L - m w^2) times the machine's acceleration. A force of amplitude F moves
-the machine by F/|K - m w^2 q|. On a moving base F is multiplied by |1 + q m/m1|.
+w is the angular frequency. Let K = k + i c w - m1 w^2, L = ka + i ca w, q = L/(L - m w^2). A force
+of amplitude F moves the machine by F/|K - m w^2 q|. A base whose acceleration has the amplitude A
+moves the machine by |m1 + q m| A/|K - m w^2 q|, relative to the base.
 """
 
 import math
@@ -21,7 +21,8 @@ from impact_damper.theory.roots import polynomial_roots
 # POINTS: least number of frequencies for tuning an absorber, near the resonance or over a band.
 # REACH: largest distance of a frequency from the resonance, in widths of the resonance peak.
 POINTS, REACH = 1001, 8.0
-# Bounds of the logarithms of absorber frequency/machine frequency, and of the damping ratio.
+# Bounds of ln(absorber frequency/machine frequency) and of ln(damping ratio of the absorber).
+# TOLERANCE (relative) and SEED: arguments of the optimizer `differential_evolution`.
 TUNINGS, DAMPINGS, TOLERANCE, SEED = (-1.5, 1.0), (-7.0, 0.7), 1e-7, 1995
 COMPETITORS = ("bare", "tuned", "own")
 # Factors by which the machine's excitation is multiplied, from 1/4 to 4.
@@ -32,11 +33,11 @@ DETUNINGS = (-0.1, 0.0, 0.1)
 def absorber_responses(
     machine, mass, frequencies, force_shares=SHARES, *, detunings=DETUNINGS, band=None, own=None
 ):
-    """Return a dataset of displacements (mm) without absorber, with a tuned absorber, with `own`.
+    """Return a dataset of displacements (mm) without absorber and with one or two absorbers.
 
-    The tuned absorber has the mass `mass` (kg) and is tuned over the range `band` (Hz). The
-    excitation is multiplied by each of `force_shares`. `detunings` are relative changes of the
-    absorber's stiffness. A machine without linear stiffness has NaN for the tuned absorber.
+    One absorber has the mass `mass` (kg) and is tuned over `band` (Hz). The other, `own`, may be
+    None. The excitation is multiplied by each number in `force_shares`. `detunings` are relative
+    changes of the absorber's stiffness. Without linear stiffness the tuned absorber has NaN.
     """
     names = COMPETITORS[: 2 if own is None else 3]
     sizes = np.full((len(names), len(detunings), len(frequencies), len(force_shares)), np.nan)
@@ -80,7 +81,7 @@ def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
         stiffness, force = _dynamics(linear, absorber(*logs), frequencies)
         return np.max(force / np.abs(stiffness))
 
-    # The largest displacement has a kink at the optimum, so methods that use slopes stop too early.
+    # The largest displacement has a kink at the optimum. Methods that use slopes stop too early.
     given = {"rng": SEED, "tol": TOLERANCE, "atol": 0, "polish": False}
     return absorber(*differential_evolution(highest, (TUNINGS, DAMPINGS), **given).x)
 
@@ -98,11 +99,10 @@ def _frequencies(machine, ratio, band):
 
 
 def response(machine, absorber, frequencies, force_shares=(1.0,)) -> np.ndarray:
-    """Return largest amplitudes (m) at frequencies (Hz), shape (frequencies, force shares).
+    """Return amplitudes (m) for each frequency (Hz) and each factor in `force_shares`.
 
-    Amplitudes are exact without a cubic spring, and by harmonic balance with a cubic spring. If
-    there are three solutions, the middle one is unstable and left out. Solutions in which a
-    softening spring pulls outwards are left out too. With no solution left, the result is infinite.
+    Without a cubic spring the amplitudes are exact. With a cubic spring they are the largest stable
+    solutions of the harmonic balance, or infinite if a softening spring has none below its barrier.
     """
     oscillator = machine.oscillator()
     pairs = zip(*_dynamics(machine, absorber, np.asarray(frequencies)), strict=True)
@@ -114,7 +114,7 @@ def response(machine, absorber, frequencies, force_shares=(1.0,)) -> np.ndarray:
 
 
 def _dynamics(machine, absorber, frequencies):
-    """Return dimensionless arrays over frequencies (Hz): dynamic stiffness K - m w^2 q, force."""
+    """Return two dimensionless arrays over frequencies (Hz): K - m w^2 q, and F or |m1 + q m| A."""
     scales, oscillator = machine.scales, machine.oscillator()
     w = scales.from_si(frequencies, "frequency")
     force = oscillator.force + oscillator.unbalance * w**2
@@ -130,7 +130,7 @@ def _dynamics(machine, absorber, frequencies):
 
 
 def _amplitude(oscillator, stiffness, force):
-    """Return the largest stable solution a of |stiffness + (3/4) k3 a^2| a = force."""
+    """Return the largest stable solution a of |stiffness + (3/4) k3 a^2| a = force, or infinity."""
     hardening = oscillator.hardening
     if hardening == 0:
         return force / abs(stiffness)

@@ -28,7 +28,7 @@ WATCHED = 100
 
 
 def force_map(task, decision, progress=None) -> xr.Dataset:
-    """Return bounds of the displacement over frequency and excitation. Other values are nominal."""
+    """Return bounds of the displacement for each frequency and each factor of the excitation."""
     critical = float(decision["promised_frequency"])
     frequencies, shares = task.few(FREQUENCIES, critical), np.array(SHARES)
     sets = np.tile(NOMINAL, (len(shares), 1))
@@ -44,8 +44,8 @@ def force_map(task, decision, progress=None) -> xr.Dataset:
 def other_masses(task, decision, progress=None) -> xr.Dataset:
     """Return a dataset that compares the damper of the task with a heavier damper.
 
-    One round of the search finds the heavier damper's gap. The dataset is empty if the damper of
-    the task is good enough, or if the heavier loose mass exceeds the machine's mass.
+    One round of the search finds the heavier damper's gap. The dataset is empty if the task's
+    damper is to be built and keeps the limit, or if the heavier mass exceeds the machine's mass.
     """
     fails = named(decision, "decision") == "do_not_build"
     fails |= named(decision, "limit_status") == "missed"
@@ -67,7 +67,7 @@ def other_masses(task, decision, progress=None) -> xr.Dataset:
 
 
 def _force(task, gap, frequency):
-    """Return the contact force (N) in the largest motion at a gap (mm), NaN after an escape."""
+    """Return the largest contact force (N) in the largest motion, or NaN if this motion escapes."""
     cell = Cell(1e-3 * gap, frequency)
     motions = run(task, [cell], task.effort.starts, ("masses",))
     k, p = int(np.argmax(motions.peaks[0])), task.packed(*cell)
@@ -79,7 +79,7 @@ def _force(task, gap, frequency):
 
 
 def competitors(task, decision, progress=None) -> xr.Dataset:
-    """Return responses without absorber, with a tuned absorber, and with the task's absorber."""
+    """Return displacements without absorber, with a tuned absorber, and with `task.absorber`."""
     band = task.absorber_band
     found = absorber_responses(task.machine, task.mass, task.grid, band=band, own=task.absorber)
     return found.assign_coords(labelled({}, frequency=task.grid).coords)

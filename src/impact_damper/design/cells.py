@@ -1,8 +1,7 @@
 """Motions from random starts, and the displacement below which a share of all motions stays.
 
 A cell is a gap, a forcing frequency, and a factor for each value that may deviate from its nominal
-value. The record of a motion is the largest displacement that the motion has reached so far.
-A regime is a group of unsettled motions of one cell with similar records.
+value. A regime is a group of unsettled motions of one cell with similar largest displacements.
 docs/explanation/promise.md says how the displacement of a regime is extrapolated.
 """
 
@@ -18,27 +17,27 @@ from impact_damper.motions.records import AT_REST, DRIFTING, NON_COLLIDING, SETT
 from impact_damper.motions.start_states import random_starts
 from impact_damper.motions.steady import run_chunks
 
-# Outcomes after which the largest displacement is known: LASTING (first run), KEPT (later runs).
+# Outcomes after which a motion is not run on: LASTING after the first run, KEPT after later runs.
 LASTING = (SETTLED, NON_COLLIDING, AT_REST, DRIFTING)
 KEPT = (SETTLED, NON_COLLIDING, AT_REST)
 # Purposes for which starts are drawn. The seed of the starts depends on the purpose. The search for
 # a gap and the confirmation of the gap therefore use different starts.
 STREAMS = "search compared confirmed orbit forces masses repeated shocks searched_again".split()
 # At once, a thread draws the starts of up to DRAWN cells, and runs up to FOLLOWED motions. After
-# TOGETHER regimes have been run, the bounds of all cells are compared again.
+# TOGETHER regimes have been run on, `Motions.largest` computes the bounds of all cells again.
 DRAWN, FOLLOWED, TOGETHER = 4, 64, 8
-# In a regime each record is at most this factor x the next smaller record.
+# In a regime each largest displacement is at most this factor x the next smaller one.
 APART = 1.3
-# A peak is the largest displacement of a motion in BLOCK cycles. `return_level` extrapolates the
-# TAIL largest peaks of a regime to the displacement that is exceeded once in HORIZON cycles.
+# A block peak is the largest displacement of a motion in BLOCK cycles. `return_level` extrapolates
+# the TAIL largest block peaks of a regime to the displacement exceeded once in HORIZON cycles.
 BLOCK, TAIL, HORIZON = 50, 50, 100_000
 # Numbers of cycles, summed over the motions of a regime. POOLED: least number for extrapolation.
 # MOST_POOLED: number after which the regime is not run further.
 POOLED, MOST_POOLED = 25_000, 200_000
-# After fewer than POOLED cycles a record is raised by this fraction for each missing doubling.
+# Until POOLED cycles are run, the displacement is raised by this fraction for each doubling to go.
 MISSING = 0.03
-# A run is divided into QUARTERS parts. A regime counts as a torus if the largest displacements in
-# these parts differ by at most the fraction STEADY of the record (ROUGH when gaps are compared).
+# A run has QUARTERS parts. Each part has a largest displacement of all motions of the regime. If
+# these differ by at most STEADY (ROUGH to compare gaps) x the largest, nothing is extrapolated.
 # SLACK: largest fraction by which a settled motion exceeds the displacement of its orbit.
 QUARTERS, STEADY, ROUGH, SLACK = 4, 0.002, 0.01, 0.001
 # Before a regime is run further, its motions get this number of cycles to settle.
@@ -84,14 +83,14 @@ class Motions:
     states : array, shape (m, n, 4)
         States of the motions at their last strobe. The strobe is a fixed phase of the forcing.
     settled : array of bool, shape (m, n)
-        Whether the largest displacement of the motion is known.
+        True if the motion is not run on: its outcome is in LASTING or KEPT, or it has escaped.
     peaks : array, shape (m, n)
-        Largest displacement of a settled motion, or record of any other motion.
+        Largest displacement of the motion so far; infinite after an escape.
     early : array, shape (m, n, QUARTERS)
         Largest displacement in each quarter of the `Settling.watched` cycles after the first run.
         The entries of a settled motion are 0.
     blocks : array of arrays, shape (m,)
-        Largest displacement in each block of BLOCK cycles, shape (n, blocks); NaN if not run.
+        Block peaks (see BLOCK) in each cell, shape (n, blocks). A block that was not run has NaN.
     """
 
     task: object
@@ -112,8 +111,9 @@ class Motions:
         return [regime for regime in found if len(regime)]
 
     def measured(self, k, regime, rough=False) -> tuple:
-        """Return a tuple: displacement of a regime, True if known, True if the test below passed.
+        """Return three values: displacement of a regime, True if known, True if tested.
 
+        Tested: no late block peak exceeds the displacement that is extrapolated from early ones.
         `rough` is for comparing gaps. The displacement is then an estimate, and no bound.
         """
         record, peaks = self.peaks[k, regime].max(), self.blocks[k][regime]
@@ -132,20 +132,19 @@ class Motions:
         quarters = [part.max() for part in np.array_split(quarters, QUARTERS)]
         if np.ptp(quarters) <= STEADY * record:
             return (1 + STEADY) * record, True, True
-        # Test: late peaks do not exceed the displacement that is extrapolated from early peaks.
         middle = peaks.shape[1] // 2
         tested = np.nanmax(peaks[:, middle:]) <= return_level(peaks[:, :middle])
         return return_level(peaks), tested or pooled >= MOST_POOLED, tested
 
     def numbers(self, k, rough=False) -> tuple:
-        """Return arrays over the starts of cell k: displacements, and True where known."""
+        """Return two arrays over the starts of cell k: displacements, and True where known."""
         sizes, known = (1 + SLACK) * self.peaks[k], self.settled[k].copy()
         for regime in self.regimes(k):
             sizes[regime], known[regime], _ = self.measured(k, regime, rough)
         return sizes, known
 
     def bounds(self, rank) -> tuple:
-        """Return for each cell: `rank`-th largest displacement, index of its start, 1 if known."""
+        """Return three arrays over cells: `rank`-th largest displacement, its start, 1 if known."""
         found = np.empty(len(self.peaks)), *np.empty((2, len(self.peaks)), int)
         for k in range(len(self.peaks)):
             sizes, known = self.numbers(k)
@@ -161,8 +160,8 @@ class Motions:
     def largest(self, rank, least=0.0, left_out=()) -> np.ndarray:
         """Run motions until the largest bound of all cells is known. Return the bounds.
 
-        The bound of a cell is its `rank`-th largest displacement. The runs also
-        end once all bounds are certainly at most `least`. Cells in `left_out` are not run.
+        The bound of a cell is the `rank`-th largest displacement of its motions. The runs end
+        earlier if no unknown bound exceeds `least`. Cells with indices in `left_out` are not run.
         """
         while True:
             bounds, places, known = self.bounds(rank)
@@ -178,7 +177,8 @@ class Motions:
     def follow(self, k, regime) -> None:
         """Run a regime of cell k until its number of cycles has doubled.
 
-        The first call runs POOLED/2 cycles or more, and drops records that may include transients.
+        The first call runs POOLED/2 cycles or more, and replaces displacements of earlier cycles,
+        which may include transients.
         """
         loud = regime[~self._settle(k, regime)]
         if not len(loud):
@@ -195,7 +195,7 @@ class Motions:
         self.peaks[k, loud] = np.maximum(before, peaks[loud].max(axis=1))
 
     def _settle(self, k, places):
-        """Run motions of cell k for at most CHECKED cycles. Return the mask of settled motions."""
+        """Run motions of cell k for at most CHECKED cycles. Return True for each settled motion."""
         effort = self.task.effort
         found = ensemble.settle(
             np.repeat(self.parameters[k : k + 1], len(places), axis=0),
@@ -270,7 +270,7 @@ def peaks_of_blocks(task, parameters, states, number, cycles) -> np.ndarray:
 
 
 def return_level(peaks) -> float:
-    """Return the displacement exceeded once in HORIZON cycles, or the largest peak if larger.
+    """Return the displacement exceeded once in HORIZON cycles, at least the largest block peak.
 
     Excesses of peaks over a high level are assumed to be distributed exponentially (S. Coles, An
     Introduction to Statistical Modeling of Extreme Values, 2001, chapter 4). A bounded motion has

@@ -50,9 +50,9 @@ def response_and_costs(task, decision, progress=None) -> xr.Dataset:
 def reached_motions(task, choice, response) -> xr.Dataset:
     """Return a dataset of the largest motion reached at each frequency, with its costs.
 
-    A motion is reached if a random start leads to it. A motion with contacts is also reached if a
-    start placed by the program leads to it. `untouched_displacement` is the largest displacement
-    among motions without contacts that only placed starts lead to.
+    A motion is reached if a random start or, for a motion with contacts, a placed start leads to
+    it (see `motions.start_states`). `untouched_displacement` is the largest displacement among
+    motions without contacts to which only placed starts lead.
     """
     sizes = response["maximum_displacement"].values
     placed = response["origin"].values == flag("origin", "placed_start")
@@ -74,7 +74,7 @@ def reached_motions(task, choice, response) -> xr.Dataset:
 
 
 def _measured(task, case, size, state, periods):
-    """Return a dictionary: names of variables, and their values for one motion.
+    """Return {name of a variable: value}: costs of a motion in a cell over `periods` cycles.
 
     `size` (mm) is the largest displacement in earlier runs, infinite if the motion escaped. `state`
     is the state of the motion at a strobe (a fixed phase of the forcing).

@@ -14,8 +14,8 @@ from impact_damper.design.promise import Promise, factor_sets
 from impact_damper.design.search import score, search, search_around
 from impact_damper.design.task import NOMINAL, NUMERICAL, SIDES, VARIED, Task, labelled
 
-# At most ROUNDS gaps are tried. The search is confirmed if it chooses a gap twice, or if the least
-# promised displacement is at most CONFIRMED x the displacement at the gap that it chose last.
+# At most ROUNDS gaps are tried. The trials end if the search chooses a tried gap, or if the least
+# promised displacement so far is at most CONFIRMED x the displacement that the search now expects.
 CONFIRMED, ROUNDS = 1.05, 4
 # Nearby gaps are run again if the promised displacement exceeds SURPRISE x the search's result.
 SURPRISE = 1.1
@@ -29,7 +29,7 @@ class Tried(NamedTuple):
 
     @property
     def harmful(self) -> np.ndarray:
-        """Nominal factors, and worst factors with the gap's factor changed to 1."""
+        """Sets of factors for runs at other gaps: nominal, and the worst set with 1 for the gap."""
         worst = self.promise.sets[self.promise.worst[0]].copy()
         worst[0] = 1
         return np.unique([NOMINAL, worst], axis=0)
@@ -71,7 +71,7 @@ def evaluate_gap(task: Task, progress=None) -> xr.Dataset:
 
 
 def confirm(task, gap, turn, sets, progress=None) -> Tried:
-    """Return a gap (mm) and bounds of its displacement, computed from new starts."""
+    """Confirm a gap (mm) with new starts. `turn`, the number of earlier calls, sets the seed."""
     stream = "confirmed", turn
     return Tried(gap, Promise(task, 1e-3 * gap, sets, stream, progress=progress).refined())
 
@@ -173,7 +173,7 @@ def conclude(task, found, curve, status) -> xr.Dataset:
 
 
 def rivals(task) -> xr.Dataset:
-    """Return largest displacements with three absorbers: tuned, detuned, and given in the task.
+    """Return largest displacements with three absorbers: tuned, detuned, and `task.absorber`.
 
     If the computation fails, they are NaN, and the addition `competitors` is flagged as failed.
     """

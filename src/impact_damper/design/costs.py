@@ -18,9 +18,9 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 def measured_costs(p, y, begin, periods) -> dict:
     """Return a dictionary of the dimensionless costs of a motion over `periods` forcing cycles.
 
-    `impact_rate` and `impact_speed` include only contacts that begin in these cycles. Forces and
-    powers are divided by the primary mass. Accelerations are absolute. After an escape, rates,
-    forces, accelerations and powers are NaN. `absolute_displacement` is NaN on a fixed base.
+    `y` is the state at the time `begin`. `impact_rate` and `impact_speed` include only contacts
+    that begin in these cycles. Accelerations are absolute. After an escape, rates, forces,
+    accelerations and powers are NaN. `absolute_displacement` is for moving bases, otherwise NaN.
     """
     time = periods * 2 * np.pi / p[FREQUENCY]
     panels = sampled(p, y, begin, begin + time, POLISH_TOLERANCE)
@@ -46,7 +46,7 @@ def measured_costs(p, y, begin, periods) -> dict:
 
 
 def pressure_costs(machine, damper, contact, speed) -> tuple[float, str]:
-    """Return the pressure (Pa) of an elastic impact by Hertz's theory, and whether the walls yield.
+    """Return the pressure (Pa) of an elastic impact, and "yes" or "no" (yielding) or "unknown".
 
     `contact` is a HertzContact, or None if unknown. `speed` is the largest speed of impact, m/s.
     """

@@ -47,7 +47,7 @@ def design_damper(
         Loose mass, kg, at most the mass of the machine. Each physical value is a number in SI
         units, a text with a unit such as "0.6 kg", or a quantity of pint.
     band : sequence of 2 floats or str
-        Least and greatest forcing frequency, Hz. The band must reach into the resonance.
+        Least and greatest forcing frequency, Hz. The machine must resonate in a part of the band.
     restitution : float
         Coefficient of restitution, 0.05 to 1.
     contact : float, str or HertzContact
@@ -222,7 +222,7 @@ class Steps:
         self.made = json.dumps(inputs | {"sources": _sources()}, sort_keys=True)
 
     def step(self, name, compute, *given):
-        """Return the result of `compute(*given)`, from a file if its inputs are unchanged."""
+        """Return the result of `compute(*given)`, or the dataset that an earlier run has kept."""
         title = name.capitalize() if self.progress else None
         if self.folder is None:
             return compute(*given, progress=title)

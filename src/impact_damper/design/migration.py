@@ -1,8 +1,7 @@
 """Design for migration: gaps and frequencies at which a release of the damper is sure to succeed.
 
-A free motion is a forced motion without the damper. A machine with a cubic spring can have a large
-and a small free motion. During the large motion the damper is switched on. At the release the
-damper is switched off. The release succeeds if the small motion follows (`motions.migration`).
+A machine with a cubic spring can have a large and a small free motion. A release succeeds if it
+leads the machine from the large to the small free motion (`motions.migration`).
 """
 
 import json
@@ -44,10 +43,11 @@ def migration(
     the range that `design_damper` searches. At each gap and frequency there are `effort.starts`
     releases. `progress` is the title of a progress bar. For other arguments see `design_damper`.
 
-    The dataset has for each gap and frequency: share of releases that succeed, median time of all
-    releases, `migration_bound` (a time). The fraction `share` of all releases succeeds within this
-    time, with 95 % confidence. Each gap has a `sure_frequency`. From this frequency on, the bound
-    is finite wherever there are two free motions. `migration_gap` is the gap with the lowest
+    The time (s) of a release runs from switching on until the small motion has settled. It is
+    infinite without success. The dataset has for each gap and frequency: share of releases that
+    succeed, median time, `migration_bound`. With 95 % confidence the fraction `share` of all
+    releases takes at most this bound. From the `sure_frequency` of a gap on, the bound is finite
+    wherever there are two free motions. `migration_gap` is the gap with the lowest
     `sure_frequency`. ValueError is raised if each frequency has only one free motion.
     """
     effort = Effort() if effort is None else effort

@@ -11,17 +11,17 @@ from impact_damper.design.task import VARIED
 
 # Largest number of corners. In a corner each value is at one end of its tolerance.
 CORNERS = 8
-# A set of factors multiplies nominal values. The peak of a set is its largest bound over frequency.
+# The peak of a set of factors is its largest bound over frequency.
 # Up to SPLITS rounds add frequencies beside peaks that are at least NEAR x the largest peak.
 # A finite peak is known if the last round raised it at most by the fraction PEAK, and if a parabola
 # through the peak and its two neighbours is higher than the peak by at most this fraction.
 NEAR, PEAK, SPLITS = 0.9, 0.01, 4
 # Sets other than the nominal set are first run at half of the frequencies, but at least FEWEST.
 FEWEST = 9
-# The fraction 2 (1 - share) of the motions of a cell exceeds the cell's usual displacement. A cell
-# has rare motions if its bound exceeds RARE x the largest usual displacement of all cells. Such
-# cells are run again with MORE x as many starts, SOME cells at a time. The repetition ends when a
-# new bound exceeds KEPT x the least old bound of the cells that were run together.
+# A cell has rare motions if its bound exceeds RARE x the largest usual displacement of all cells.
+# Such cells are run again with MORE x as many starts, SOME cells at a time, largest bounds first.
+# The repetition ends when a new bound exceeds KEPT x the least old bound of these SOME cells,
+# because the old bounds of the remaining cells are smaller.
 RARE, MORE, SOME, KEPT = 1.2, 6, 8, 0.95
 
 
@@ -72,7 +72,7 @@ class Promise:
         return [Cell(self.gap, f, tuple(self.sets[k])) for k, f in cells]
 
     def _repeat_rare(self) -> None:
-        """Run cells with rare motions again, with more starts.
+        """Run cells with rare motions again, with more starts (see RARE).
 
         A repeated cell has two bounds. With a probability of at least 1 - DOUBT both are right.
         """

@@ -18,7 +18,7 @@ GAP_SPAN = (0.4, 2.0)
 
 
 def follow_quiet_orbit(task, choice, progress=None) -> xr.Dataset:
-    """Return a dataset of the quiet orbit over the gap, at the frequency `branch_frequency`."""
+    """Follow the quiet orbit over the gap, at the `branch_frequency` of the decision `choice`."""
     gap, frequency = float(choice["design_gap"]), float(choice["branch_frequency"])
     orbit = quiet_orbit(task, gap, frequency)
     cliff = float(choice["lost_gap"][1]) if decode(choice["lost_kind"])[1] == "jump" else np.inf
@@ -38,7 +38,7 @@ def quiet_orbit(task, gap, frequency) -> Orbit | None:
 
 
 def over_gap(task, gap, frequency, orbit, cliff) -> xr.Dataset:
-    """Return a dataset of a quiet orbit over the gap (mm), and its smallest stable displacement."""
+    """Return a quiet orbit over the gap (mm), its best gap, and whether this is beyond `cliff`."""
     gaps = sizes = moduli = np.empty(0)
     if orbit is not None:
         oscillator, damper, turning = task.system(1e-3 * gap, frequency)

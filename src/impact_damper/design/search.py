@@ -1,7 +1,7 @@
 """The search for the gap: a curve of displacements over the gap, finer at small displacements.
 
-The first runs use few starts and frequencies. Later runs near the best gaps vary more than the gap.
-The value of a nominal gap is the largest displacement at all gaps within its tolerance.
+Later runs near the best gaps use more starts and frequencies than the first runs, and vary other
+values too. The value of a nominal gap is the largest displacement at all gaps in its tolerance.
 """
 
 from typing import NamedTuple
@@ -18,14 +18,14 @@ GAPS, FREQUENCIES, STARTS = 80, 5, 10
 # Later search near the best gaps: at most ROUNDS rounds, CLOSE_STARTS starts in each cell,
 # frequencies `Task.few(CLOSE_FREQUENCIES)` and the worst frequencies of earlier rounds.
 CLOSE_FREQUENCIES, CLOSE_STARTS, ROUNDS = 11, 24, 5
-# A cell is run again if its displacement exceeds DOUBTED x the usual displacement (see `_ranks`).
+# A gap's worst displacement is computed again if above DOUBTED x its largest usual displacement.
 DOUBTED = 1.1
 # Two neighbouring gaps have a jump between them if the ratio of their displacements exceeds JUMP.
 # The interval between them is split if log(gap ratio) exceeds SMOOTH, or FINE with a jump.
 JUMP, SMOOTH, FINE = 1.3, 0.03, 0.004
-# Nominal gaps whose values are at most CANDIDATE x the least value form ranges. A range ends where
-# a value exceeds LEVEL x the least value in this range. A range is good if its least value is at
-# most ALIKE x the least value of all nominal gaps.
+# In each stretch of nominal gaps with values up to CANDIDATE x the least of all values, a range is
+# the part around the least value of the stretch, with values up to LEVEL x this least value.
+# A range is good if its least value is at most ALIKE x the least value of all nominal gaps.
 CANDIDATE, ALIKE, LEVEL = 1.15, 1.04, 1.05
 NOMINAL_GAPS = 4001
 # A chosen gap is rounded to DIGITS significant digits or, if needed, to more (below MOST_DIGITS).
@@ -49,11 +49,11 @@ class Curve:
     def __init__(self, task: Task):
         self.task = task
         self.gaps, self.sizes, self.worst = np.empty((3, 0))
-        self.close = np.empty(0, bool)
+        self.close = np.empty(0, bool)  # False at gaps that only the first runs have computed
         self.sets = [NOMINAL]  # sets of factors with the largest displacements near the best gaps
 
     def put(self, gaps, sizes, worst, *, close=True, replace=False) -> None:
-        """Add displacements. At a gap in the curve keep the larger, or with `replace` the new."""
+        """Add displacements. At a known gap keep the larger one, or with `replace` the new one."""
         for gap, size, frequency in zip(gaps, np.minimum(sizes, HUGE), worst, strict=True):
             k = int(np.searchsorted(self.gaps, gap * (1 - 1e-9)))
             if k < len(self.gaps) and self.gaps[k] <= gap * (1 + 1e-9):
@@ -125,7 +125,7 @@ class Curve:
         return found
 
     def worst_inside(self, gap) -> np.ndarray:
-        """Return `sets`, with the gap's factor set to the worst gap within the tolerance of `gap`.
+        """Return `self.sets`. The gap's factor leads from `gap` to the worst gap in its tolerance.
 
         The result is empty if `gap` or an end of its tolerance is at least as bad.
         """
@@ -178,9 +178,9 @@ def middle_gap(first, last) -> float:
 def score(task, gaps, frequencies, starts, stream, progress=None, sets=(NOMINAL,)) -> tuple:
     """Return three sequences over gaps (mm): displacement (mm), frequency (Hz), set of factors.
 
-    The results of a gap are results of its worst cell. The displacement of a cell is exceeded by
-    about the fraction (1 - share)/2 of the cell's motions. If rare motions may have made the
-    displacement large, the cell is run again with more starts.
+    The results of a gap are results of its worst cell. About the fraction (1 - share)/2 of the
+    motions of a cell exceed its displacement. If rare motions may have made the displacement large,
+    the cell is run again with more starts (see DOUBTED).
     """
     conditions = [(f, tuple(each)) for f in frequencies for each in sets]
     cells = [Cell(1e-3 * gap, *each) for gap in gaps for each in conditions]
@@ -201,7 +201,7 @@ def score(task, gaps, frequencies, starts, stream, progress=None, sets=(NOMINAL,
 
 
 def _ranks(task, starts):
-    """Return how many motions exceed a cell's displacement, and how many its usual displacement."""
+    """Return how many motions of a cell exceed its displacement, and how many the usual one."""
     allowed = starts * (1 - task.share)
     return round(allowed / 2), int(2 * allowed)
 

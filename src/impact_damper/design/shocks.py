@@ -13,7 +13,7 @@ from impact_damper.design.task import labelled
 from impact_damper.model.packed import FREQUENCY
 
 # There are SHOCKS positive and SHOCKS negative impulses. The largest impulse changes the machine's
-# velocity by WIDEST W x. W is the angular frequency of the force. x is the largest displacement
+# velocity by WIDEST x W A. W is the angular frequency of the force. A is the largest displacement
 # without damper or, if this is infinite, the promised displacement.
 SHOCKS, WIDEST = 32, 2.0
 # A run has LONGEST cycles. The largest displacement is found in each block of BLOCK cycles.
@@ -42,7 +42,7 @@ def shocks(task, decision, progress=None) -> xr.Dataset:
     drawn = draw_starts(task, [cell], task.effort.starts, ("shocks", 1))[0]
     starts = convergence_times(task, p, drawn, promised)
     critical = np.abs(changes)[np.isinf(returned)].min(initial=np.inf)
-    # Impulses a little below the smallest one after which the motion does not return are tried too.
+    # `critical` is now the smallest tried impulse without a return. Smaller ones are tried too.
     first = changes[np.isinf(returned) & (np.abs(changes) <= critical)]
     steps = most / SHOCKS * np.arange(SHOCKS) / SHOCKS
     fine = (first[:, None] - np.sign(first)[:, None] * steps).ravel()

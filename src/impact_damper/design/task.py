@@ -32,7 +32,7 @@ from impact_damper.model.units import absolute_value, check_si
 from impact_damper.theory.free_oscillator import balance_amplitudes, free_folds, maximum_response
 
 # VARIED: names of values that may deviate; the last three are values of the machine. NOMINAL: the
-# factors of these values without deviations. TOLERANCES: default of largest relative deviations.
+# factor 1 for each name in VARIED. TOLERANCES: default of the largest relative deviations.
 VARIED = tuple("gap restitution contact_stiffness gravity friction stiffness damping force".split())
 NOMINAL = (1.0,) * len(VARIED)
 TOLERANCES = {"gap": 0.2}
@@ -231,7 +231,7 @@ class Task:
                 self.packed(gap, frequency, factors)
 
     def _checked_tolerances(self):
-        """Return the tolerances as fractions. A tolerance of the gap in m stays a text."""
+        """Return the tolerances as fractions, or for the gap also as a text such as "0.0002 m"."""
         if not isinstance(self.tolerances, Mapping):
             raise TypeError(f"tolerances = {bounds.shown(self.tolerances)}: must be a dictionary")
         machine, found = self.machine, {}
@@ -309,7 +309,7 @@ class Task:
 
     @cached_property
     def resonances(self) -> list[float]:
-        """Resonances in the band, Hz: without the loose mass, or with it fixed to the machine."""
+        """Resonances in the band, Hz: without the loose mass, and with it fixed to the machine."""
         ratio = math.sqrt(1 + self.mass / self.machine.mass)
         found = [each for end in self.resonance for each in (end / ratio, end)]
         return [each for each in found if self.band[0] < each < self.band[1]]

@@ -48,7 +48,7 @@ REST, MOST_WINDOWS, LONGEST = 1e-3, 10**4, 2.0
 
 
 def transients(task, choice, progress=None) -> xr.Dataset:
-    """Return a dataset of a swept sine and an unforced decay, with and without the damper."""
+    """Return a swept sine and an unforced decay, with the damper of `choice` and without."""
     machine, damper = task.machine, task.damper(1e-3 * float(choice["design_gap"]))
     # A sweep leads to the large motions of a nonlinear machine only if the sweep passes all
     # resonances. Resonances may lie outside the band.
