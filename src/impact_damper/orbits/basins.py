@@ -2,7 +2,7 @@
 
 Without a damper the boundaries of basins are stable manifolds of unstable orbits: curves of states
 from which motions tend to the orbit. They are computed backwards in time, because errors then
-decrease. `reach` bounds |Z1| and |Z1'| in the computation, `window` in the stored part.
+decrease. The curves are computed up to the |Z1| and |Z1'| in `reach`, and stored up to `window`.
 The names *convergence time*, *finite-time basin stability* and *minimal critical shock* come from
 Attractors.jl, version 2 (StabilityQuantifiersAccumulator).
 """
@@ -39,7 +39,7 @@ from impact_damper.orbits.shooting import find_orbit
 WIDTH = 1.5
 # The search for unstable orbits begins at each state of a grid of NEWTON x NEWTON states.
 NEWTON = 16
-# At most 2 TRIED of the states that reach no known attractor are used to search for further ones.
+# At most 2 x TRIED states that reach no known attractor are used to search for further attractors.
 TRIED = 64
 # Default positions Z2/d0 of the loose mass. Each state (Z1, Z1') is run once for each position.
 PLACES = (-0.8, -0.4, 0.0, 0.4, 0.8)
@@ -47,11 +47,11 @@ CELLS_RANGE = {"least": 2, "most": 10**4}
 
 
 class Labelled(NamedTuple):
-    """Attractors to which the n states of a plane lead, each run with m states of the loose mass.
+    """Attractors of a plane of n states (Z1, Z1'). Each is run with m states of the loose mass.
 
-    labels: Index of the attractor in `records`, or a negative flag if none; shape (m, n).
+    labels: Index of the attractor, or a negative flag without an attractor, shape (m, n).
     periods: Number of forcing cycles after which the label is known, shape (m, n).
-    label: Function that returns the labels and periods of k other states, shape (k, 4).
+    records: The attractors. label: Function of any states, shape (k, 4): labels and periods.
     """
 
     labels: np.ndarray
@@ -118,14 +118,14 @@ def basins(
         there is no attractor; and the convergence time in forcing cycles, -1 without an attractor.
         For each attractor: the period, the largest displacement, Z1 and Z1' at `phase`, and
 
-        - the share of states that lead to the attractor, and these states' median convergence time;
-        - the longest convergence time after a shock of either sign, infinite without return;
+        - the share of states that lead to the attractor, and their median convergence time;
+        - with `shock`: the longest convergence time after +shock or -shock, infinite if none;
         - the finite-time basin stability: the share of states that reach it in `within` cycles;
         - the minimal critical shock: the smallest impulse at `phase` after which the motion does
-          not return. Impulses are tried up to the largest speed in the plane.
+          not return. Impulses up to a jump of Z1' by the largest speed in the plane are tried.
 
-        Without a damper also: unstable orbits whose period is the period of an attractor, and their
-        stable manifolds, which are the boundaries of basins.
+        Without a damper also: unstable orbits of the attractors' periods, and their stable
+        manifolds, which are the boundaries of basins.
 
     Raises
     ------
@@ -390,8 +390,8 @@ def _wide(states, window, spacing, reach):
     return np.where(lost, inside, near & np.any(apart > allowed, axis=1))
 
 
-# The smallest shock is searched for in four rounds. Each divides a range of shocks into this number
-# of parts. The next range is the first part at whose end a motion does not return.
+# The minimal critical shock is searched for in four rounds. Round k divides a range of shocks into
+# SHOCKS[k] parts. The next range is the first part at whose end a motion does not return.
 SHOCKS = (256, 64, 64, 64)
 
 
@@ -412,7 +412,7 @@ def robustness(p, found, phase, widest, shock, within) -> dict:
 
 
 def _after(found, index, states, shocks):
-    """Return for each shock whether motions leave the attractor, and the number of cycles run."""
+    """Return for each shock whether any motion leaves the attractor, and the most cycles run."""
     pushed = np.repeat(states, len(shocks), axis=0)
     pushed[:, 1::2] += np.tile(shocks, len(states))[:, None]
     labels, periods = (each.reshape(len(states), -1) for each in found.label(pushed))
@@ -420,7 +420,7 @@ def _after(found, index, states, shocks):
 
 
 def _critical(found, index, states, most):
-    """Return the smallest |shock| up to |most| after which a motion does not return, or inf."""
+    """Return |shock| of the first shock from 0 to `most` (< 0 or > 0) without return, or inf."""
     low, high = 0.0, most
     for parts in SHOCKS:
         shocks = np.linspace(low, high, parts + 1)

@@ -28,8 +28,8 @@ PAIRS = {count: np.triu_indices(count, 1) for count in (2, 4)}
 class Event(NamedTuple):
     """A bifurcation or a change of contacts, with the `Orbit.sequence` before and after it.
 
-    The kind is a key of TESTS, "grazing" (a contact appears or vanishes in flight) or "merging"
-    (two contacts with one wall become one contact, or one contact parts in two).
+    The kind is a key of TESTS or one of two kinds of grazing: "grazing" (a contact appears or
+    vanishes in flight), "merging" (two contacts with one wall become one, or one parts in two).
     """
 
     kind: str
@@ -42,7 +42,7 @@ def _reversal(point, symmetric):
     """Return a number that is zero if one of the orbit's `cycle_multipliers` is -1.
 
     There a symmetric orbit (`sign` -1) loses its symmetry, and any other orbit doubles its period.
-    `symmetric` says which of the two kinds of orbits is tested. For the other kind, return 1.
+    If `symmetric`, return 1 for an orbit that is not symmetric, otherwise 1 for a symmetric orbit.
     """
     orbit = point.orbit
     return _product(orbit.cycle_multipliers + 1) if (orbit.sign < 0) == symmetric else 1.0
@@ -56,7 +56,7 @@ def _pairs(point):
 
 
 def _product(values):
-    """Return the product of `values`, a real number, after reducing moduli above 1 to 1."""
+    """Return the real part of a product. A modulus above 1 counts as 1: only 0 and sign matter."""
     return float((values / np.maximum(1, np.abs(values))).prod().real)
 
 
@@ -73,8 +73,8 @@ TESTS = {
 def bifurcations_between(point_at, start, end, first, last):
     """Return (place, event) for each bifurcation between two points, and how many were missed.
 
-    A place is a distance along the branch, or another coordinate. The points lie at the places
-    `first` and `last`, and `point_at` returns the point at a place.
+    A place is a distance along the branch or, near a grazing, the height of an extremum of Z2. The
+    points lie at the places `first` and `last`, and `point_at` returns the point at a place.
     """
     located, lost = [], 0
     for kind, (test, precision) in TESTS.items():
@@ -92,7 +92,7 @@ def bifurcations_between(point_at, start, end, first, last):
             place = brentq(value, first, last, xtol=tolerance)
             point = known[place]
             if not point.orbit.stable and abs(point.orbit.multipliers[0]) < 1 + NEAR_CIRCLE:
-                # Prefer a stable orbit close to the bifurcation.
+                # If an orbit beside the bifurcation is stable, store this orbit.
                 sides = (place - 2 * tolerance, place + 2 * tolerance)
                 beside = [point_at(side) for side in sides if (side - first) * (side - last) < 0]
                 point = next((each for each in beside if each.orbit.stable), point)
@@ -161,7 +161,7 @@ def _changes_of_contact(point_at, start, end, length):
 
 
 def _contact_event(orbit):
-    """Return "merging" or "grazing", depending on how an orbit's slowest contact appears."""
+    """Return the kind of the event, from the contact that begins at the smallest |Z2'|."""
     contacts = orbit.contacts
     k = int(np.argmin(np.abs(contacts[:, 3])))
     period = 2 * np.pi / orbit.p[FREQUENCY]

@@ -15,8 +15,8 @@ from impact_damper.orbits.segments import NUDGE
 MOST_POINTS = 10_000
 # Orbits are equal if their states at W T = pi/2 differ by less than SAME.
 SAME = 1e-5
-# Only steps with similar displacements are searched for an orbit: the difference in max |Z1| must
-# be at most NEARBY plus the change of max |Z1| along the step.
+# `Branch.holds` searches a step only if max |Z1| of the orbit sought differs from max |Z1| at the
+# step's beginning by at most NEARBY plus the change of max |Z1| along the step.
 NEARBY = 0.02
 # Largest distance from the parameter's range at which `family` is extrapolated.
 EXTENDED = 1e-3
@@ -41,8 +41,8 @@ class Branch:
     `events` holds pairs: the index of a point, and the event there. `ends` says why the branch ends
     at its first and at its last point. range_ends: end of the parameter's range. closed: a closed
     curve. symmetry_breaking or period_doubling: a branch of symmetric orbits or of half the period
-    is met. contact_lost. lost: Newton's method fails. point_limit: MOST_POINTS. unstable: too many
-    unstable orbits in a row. `lost` is the number of events that could not be located.
+    is met. contact_lost: see WEAK. lost: Newton's method fails. point_limit: see MOST_POINTS.
+    unstable: too many unstable orbits in a row. The field `lost` counts events not located.
     """
 
     family: Callable[[float], np.ndarray]
@@ -194,7 +194,7 @@ def _next_pieces(point, span, length, search):
         return [], 0.5, search
     along = (point.problem.metric * (ahead.x - point.x)) @ point.tangent
     located, missed = events_between(point, ahead, along)
-    # Where a branch meets a branch of symmetric orbits or of half the period, it has a fold.
+    # A branch that ends at a branch of symmetric orbits, or of half the period, has a fold there.
     crosses = point.orbit.deviation @ ahead.orbit.deviation < 0
     unseen = crosses and not any(event.kind == "fold" for event in located)
     if length > CLEAR_STEP and (missed or unseen):
@@ -247,8 +247,8 @@ def _through_grazing(point, reach):
 def _meeting(events, orbit):
     """Return the index of the event at which a branch meets a more symmetric branch, or None.
 
-    The event is a fold at which `Orbit.deviation` vanishes. If no fold was located, the event was
-    missed, and len(events) is returned.
+    The event is a fold at which `Orbit.deviation` vanishes. If folds were located, but not this
+    one, return None. If no fold was located, the event was missed: return len(events).
     """
     folds = [k for k, event in enumerate(events) if event.kind == "fold"]
     least = VANISHED * np.max(np.abs(orbit.deviation))

@@ -41,7 +41,7 @@ def clearance_sweep(
     workers=1,
     progress=None,
 ):
-    """Find all motions at each clearance of a sweep, and the optimum clearance of the quiet motion.
+    """Find all motions at each clearance of a sweep, and the optimum clearance of the quiet orbit.
 
     Parameters
     ----------
@@ -53,7 +53,7 @@ def clearance_sweep(
         Forcing frequency W, or Hz for a machine.
     clearances : sequence of float
         Increasing clearances d0. For a machine: increasing gaps (full play) in m, as `gap` in
-        `Machine.damper`. The coordinate `clearance` of the result then holds gaps too.
+        `Machine.damper`. The coordinate `clearance` of the result then holds gaps in mm.
     method : str
         "simulated" finds the motions. "harmonic_balance" only solves equations: the result holds
         the amplitude and the optimum by equation (7), and the clearances by rules (18) and (19).
@@ -64,14 +64,14 @@ def clearance_sweep(
     -------
     xarray.Dataset
         For each (clearance, motion): the variables of `frequency_response`. For each `clearance`:
-        max |Z1| of the quiet motion (period 1, symmetric, two contacts; absent with gravity,
+        max |Z1| of the quiet orbit (period 1, symmetric, two contacts; absent with gravity,
         because no motion is symmetric then), the largest |Z1| of all motions to which starts lead,
-        and the amplitude of the smallest stable solution of (7). Scalars: the clearance with the
-        smallest quiet motion (the optimum) and the kind of this minimum; the optimum by (7); the
-        clearances by rules (18) and (19), NaN for (19) without a resonance peak; rm W^2 d0/f at the
-        optimum (f is the amplitude of the forcing), and this ratio by the theory of straight
-        flight. For each `edge`, lower and upper: the clearance up to which max |Z1| of the quiet
-        motion exceeds its minimum by at most 10 %.
+        and the amplitude of the smallest stable solution of (7). Scalars: the clearance of the
+        smallest quiet orbit (the optimum); whether this minimum is smooth, a kink, or an end of the
+        branch or of the sweep; the optimum by (7); the clearances by rules (18) and (19), NaN for
+        (19) without a resonance peak; rm W^2 d0/f at the optimum, with f = F + U W^2, and by the
+        theory of straight flight. For each `edge`, lower and upper: the clearance up to which
+        max |Z1| of the quiet orbit exceeds its minimum by at most 10 %.
 
     Raises
     ------
@@ -84,8 +84,8 @@ def clearance_sweep(
     --------
     >>> import impact_damper as idm
     >>> import numpy as np
-    >>> oscillator, gaps = idm.Oscillator(0.215), np.linspace(2.0, 2.8, 9)
-    >>> best = idm.clearance_sweep(oscillator, {"mass_ratio": 0.12}, 2.0, gaps)
+    >>> oscillator, clearances = idm.Oscillator(0.215), np.linspace(2.0, 2.8, 9)
+    >>> best = idm.clearance_sweep(oscillator, {"mass_ratio": 0.12}, 2.0, clearances)
     >>> round(float(best.optimum_clearance), 4)
     2.3944
     """
@@ -153,10 +153,10 @@ def _peak_rule(oscillator, mass_ratio):
 
 
 def _quiet_motions(data, clearances, rule):
-    """Return the state and max |Z1| of the quiet motion at each clearance, and an index or None.
+    """Return the state and max |Z1| of the quiet orbit at each clearance, and an index or None.
 
-    max |Z1| is NaN without a quiet motion. The index belongs to the clearance nearest to `rule`
-    that has a quiet motion. Only quiet motions on the same branch as this motion are returned.
+    max |Z1| is NaN without a quiet orbit. The index belongs to the clearance nearest to `rule` that
+    has a quiet orbit. Quiet orbits on another branch than the orbit at this index are left out.
     """
     names = "outcome period contacts asymmetry maximum_displacement branch state"
     table = {name: data[name][1] for name in names.split()}
@@ -172,7 +172,7 @@ def _quiet_motions(data, clearances, rule):
 
 
 def _stable_part(p, state, span):
-    """Return clearances and max |Z1| of stable orbits on a branch, and max |Z1| as a function."""
+    """Return clearances and max |Z1| of stable orbits, and max |Z1| as a function of clearance."""
 
     def family(clearance):
         changed = p.copy()
@@ -196,8 +196,8 @@ def _stable_part(p, state, span):
 
 # The range around the optimum ends where max |Z1| is NEAR_MINIMUM times its minimum.
 NEAR_MINIMUM = 1.1
-# A smooth minimum of max |Z1| is moved, by at most WIDE, to the clearance at which a central
-# difference with the step DIFFERENCE is zero. Both are divided by the clearance.
+# A smooth minimum of max |Z1| is moved, by at most WIDE times the clearance, to the place at which
+# a central difference is zero. The step of this difference is DIFFERENCE times the clearance.
 DIFFERENCE, WIDE = 3e-5, 1e-4
 
 

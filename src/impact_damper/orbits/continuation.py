@@ -22,7 +22,7 @@ NEWTON, LARGEST = 10, 0.5
 # Newton's method has converged if the residual is a rounding error and one of these is true:
 # - The correction before the last one is below SURE.
 # - The derivative by the parameter is up to date, and the last correction is below CLOSE.
-# - This derivative is up to date, and corrections below ROUNDING no longer shrink to half.
+# - This derivative is up to date, and a correction below ROUNDING exceeds half of the one before.
 # The method fails if a correction above SURE exceeds SHRINKING times the one before.
 CLOSE, ROUNDING, SURE, SHRINKING = 1e-10, 1e-4, 1e-6, 0.7
 # The derivative by the parameter is expensive. Therefore it is updated only if the last correction
@@ -33,13 +33,13 @@ REFINED, UNMOVED = 1e-4, 5e-6
 SINGULAR = 1e-8
 # Lengths of the first and of the shortest step along a branch, as in `Problem.length`.
 FIRST_STEP, SHORTEST_STEP = 0.01, 1e-9
-# A step has at most LONGEST times the length of the vector of unknowns, or LONGEST_UNSTABLE times
+# A step is at most LONGEST times as long as the vector of unknowns. The factor is LONGEST_UNSTABLE
 # if orbits are neither symmetric nor stable. Vectors shorter than SMALLEST count as SMALLEST.
 LONGEST, LONGEST_UNSTABLE, SMALLEST = 0.02, 0.06, 0.05
 # The first guess in `Problem.at_value` is at most this far from the given point. A farther guess
 # near a fold could be a state so large that its integration takes minutes.
 FARTHEST_GUESS = 0.08
-# A point must lie within about ASIDE times the length of the step of its first guess, because a
+# The distance of a point from its first guess must be below about ASIDE times the step, because a
 # farther point may lie on another branch. The first correction may be FAILING times this distance.
 ASIDE, FAILING = 0.2, 2.0
 
@@ -70,8 +70,8 @@ class Problem:
 
     `family(value)` is the array `p` of all parameters at a point. `loose` is (Z2 - Z1, Z2' - Z1'),
     which is constant without a damper. If `symmetric`, all orbits are symmetric, and the segments
-    cover half the period. `rough` is the largest norm of a segment's derivative when the orbit was
-    last divided into several segments by `recut`, otherwise 0.
+    cover half the period. `rough` is the largest norm of a matrix in `Orbit.factors` when `recut`
+    last divided the orbit into several segments, otherwise 0.
     """
 
     family: Callable[[float], np.ndarray]
@@ -110,7 +110,7 @@ class Problem:
 
     @property
     def cycle(self):
-        """Length of all segments, radian: the period or, for symmetric orbits, half the period."""
+        """Increase of the phase W T in the period or, for symmetric orbits, in half the period."""
         return self.phases[-1] - self.phases[0]
 
     @cached_property
@@ -120,7 +120,7 @@ class Problem:
         return np.append(np.full(m * self.size, 1 / m), 1.0)
 
     def length(self, vector):
-        """Return the length of the difference between two vectors of unknowns, in the metric."""
+        """Return the length of a `vector`, the difference of two vectors of unknowns."""
         return float(np.sqrt(self.metric @ vector**2))
 
     def unknowns(self, orbit, value):
@@ -268,13 +268,13 @@ def _cubic(point, ahead, fraction):
 # the tangents at the step's ends, radian. SKEW: length of the difference of two unit vectors, one
 # from end to end of the step, the other along the mean of the two tangents.
 TURNED, SKEW = 0.5, 0.03
-# The length of a step is chosen to reach AIM x TURNED or AIM^2 x SKEW. A step is at most GROWTH
-# times as long as the step before. After a rejected step it is at least SHRINKAGE times as long.
+# A step should reach AIM x TURNED or AIM^2 x SKEW, whichever is first. It is at most GROWTH times
+# as long as the step before, and after a rejected step at least SHRINKAGE times as long.
 AIM, GROWTH, SHRINKAGE = 0.65, 1.5, 0.3
 
 
 def next_point(point, span, length):
-    """Return the next point, None if the step fails, and the factor for the next step's length."""
+    """Return the next point, or None after a failure; and the factor for the next step's length."""
     problem = point.problem
     bent = length**2 / 2 * point.bend + length**3 / 6 * point.twist
     ahead = problem.near(point.x + length * point.tangent + bent, point.tangent, length)
@@ -315,9 +315,9 @@ def folds_twice(point, ahead):
     return first * (first - middle**2 / (4 * bend)) < 0
 
 
-# Several segments are replaced if one begins closer than NEAR_SECTION (radian) to a contact, if the
-# norm of a segment's derivative reaches ROUGHER times `Problem.rough`, or if a single segment is
-# enough because `Orbit.amplification` is below MILD times AMPLIFYING.
+# An orbit with several segments gets new ones if one begins closer than NEAR_SECTION (radian) to a
+# contact, if the norm of a matrix in `Orbit.factors` reaches ROUGHER times `Problem.rough`, or if
+# one segment is enough because `Orbit.amplification` is below MILD times AMPLIFYING.
 NEAR_SECTION, ROUGHER, MILD = 0.02, 4.0, 0.5
 
 
@@ -353,5 +353,5 @@ def recut(point, between=()):
 
 
 def _norms(orbit):
-    """Return the Frobenius norm of each segment's derivative, shape (m,)."""
+    """Return the Frobenius norm of each matrix in `Orbit.factors`, shape (m,)."""
     return np.sqrt(np.sum(orbit.factors**2, axis=(1, 2)))

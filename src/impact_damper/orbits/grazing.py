@@ -1,7 +1,7 @@
-"""Follow a branch through a grazing, at which a contact appears, vanishes, or parts in two.
+"""Follow a branch through a grazing, at which an extremum of Z2 reaches a wall.
 
-At a grazing an extremum of Z2 reaches a wall, and the branch turns sharply. Therefore its points
-are computed at chosen values of |Z2| - d0 in this extremum, called the height of the extremum.
+The branch turns sharply there. Therefore its points are computed at chosen values of |Z2| - d0 in
+this extremum, called the height of the extremum. `direction` is 1 if heights rise, -1 if they fall.
 """
 
 from typing import NamedTuple
@@ -56,7 +56,7 @@ class Passage(NamedTuple):
     """Points of a branch through a grazing, and at each point the extremum that grazes.
 
     `grazing` is the index of the point closest to the grazing, on the side with more contacts.
-    `kind` is "grazing", or "merging" if a contact parts in two or two contacts become one.
+    `kind` is "grazing" or "merging", as in `bifurcations.Event`.
     """
 
     points: list
@@ -146,7 +146,7 @@ def _before(height, target):
 
 
 def _targets(height, sharp, direction):
-    """Return the heights at which points through a grazing are computed, one after the other."""
+    """Return heights for points. `sharp` is the sign of heights on the side with more contacts."""
     fine = LEAST * RATIO ** np.arange(1 + int(np.log(MOST / LEAST) / np.log(RATIO)))
     if direction == sharp:
         return list(sharp * fine)
@@ -189,7 +189,7 @@ def turns_of(orbit):
 def with_gradient(problem, x, orbit, turn):
     """Return an extremum with its gradient. The array `x` holds the unknowns of the orbit.
 
-    The phase is kept fixed, because a small shift does not change the height where Z2' = 0.
+    The phase of the extremum is kept fixed. Its small change has no effect, because Z2' = 0 there.
     """
     k, rate = turn.segment, problem.rate(x[-1])
     phases, begin = np.array([orbit.phases[k], turn.phase]), orbit.states[k]

@@ -27,7 +27,7 @@ TURN = 2 * math.pi
 RESIDUAL, STIFF_RESIDUAL = 1e-12, 7e-15
 # An orbit should begin at least this far from a contact, radian.
 MARGIN = 0.15
-# The list of contacts at first has 2 x CONTACTS rows for each forcing cycle and for each segment.
+# The list of contacts at first has 2 x CONTACTS x (forcing cycles + segments) rows.
 CONTACTS = 64
 
 
@@ -68,7 +68,7 @@ class Orbit:
 
     @property
     def cycle(self):
-        """Length of all segments, radian: the period, or half the period if `sign` is -1."""
+        """Increase of the phase W T in the period, or in half the period if `sign` is -1."""
         return self.phases[-1] - self.phases[0]
 
     @cached_property
@@ -105,7 +105,7 @@ class Orbit:
 
     @property
     def amplification(self):
-        """Spectral norm of the `matrix`: the largest growth of a small disturbance in a `cycle`."""
+        """Spectral norm of the `matrix`: the largest growth of a small disturbance over `cycle`."""
         return np.linalg.norm(self.matrix, 2) if np.all(np.isfinite(self.matrix)) else np.inf
 
     @property
@@ -115,7 +115,7 @@ class Orbit:
 
     @property
     def active(self):
-        """Number of unknown components of a state: 4, or 2 (Z1, Z1') without contacts."""
+        """Number of unknowns of a state: 4, or 2 (Z1, Z1') without contacts, even with a damper."""
         return 4 if self.contact_time > 0 else 2
 
     @cached_property
@@ -152,10 +152,10 @@ class Orbit:
 
     @cached_property
     def _surveyed(self):
-        """Contacts, largest |Z1|, and complex first harmonics of Z1 and Z2, in one `cycle`."""
+        """Contacts, largest |Z1|, and complex first harmonics of Z1 and Z2, in all segments."""
         states, phases = self.states.copy(), self.phases
         if side_of(self.p, states[0]) != 0:
-            # The first state lies in a contact, which began in the cycle before: survey two cycles.
+            # The first state lies in a contact, which began earlier: survey two times `cycle`.
             phases = self.phases[0] + np.array([0.0, 2 * self.cycle])
         times = phases / self.p[FREQUENCY]
         room, sums = 2 * CONTACTS * (self.periods + len(states)), np.empty((2, 2))
@@ -179,7 +179,7 @@ class Orbit:
 
     @cached_property
     def sequence(self):
-        """Walls touched in the order of time, such as "+-"; the same for any first phase."""
+        """Walls in the order of contacts, such as "+-"; the alphabetically first rotation."""
         walls = "".join("+" if wall > 0 else "-" for wall in self.contacts[:, 0])
         return min((walls[k:] + walls[:k] for k in range(len(walls))), default="")
 
@@ -206,10 +206,10 @@ class Orbit:
 
     @cached_property
     def deviation(self):
-        """Deviation from a symmetric orbit or, if `periods` is even, from half the period, (4,).
+        """Deviation from a symmetric orbit or, if `periods` is even, an orbit of half the period.
 
-        It is the first state plus, or if `periods` is even minus, the state half a period later. It
-        changes its sign where a branch meets a branch of such orbits. If `sign` is -1, it is ones.
+        It is the sum (for even `periods` the difference) of the first state and the state half a
+        period later, shape (4,). Its sign changes where a branch meets a branch of such orbits.
         """
         if self.sign < 0:
             return np.ones(4)

@@ -47,9 +47,9 @@ def periodic_orbit(system, damper, frequency, state, *, period=1, phase=None):
     Returns
     -------
     xarray.Dataset
-        For the orbit: the variables that `orbit_branches` returns for a `point`. At the phase of
-        the state, the loose mass touches no wall. For each `contact`: the wall, and the time and
-        the relative velocity Z2' at the beginning and at the end.
+        For the orbit: the variables that `orbit_branches` returns for a `point`. In the state
+        returned the loose mass touches no wall. For each `contact`: the wall, and the time and the
+        relative velocity Z2' at the beginning and at the end.
 
     Raises
     ------
@@ -101,10 +101,10 @@ def orbit_branches(
     With a frequency and a state, the function follows the branch of the orbit near the state. With
     `motions`, it follows over the frequency every branch through a settled motion, and in addition
 
-    - branches that leave a branch of period 1 or 3 at a loss of symmetry, or at a period doubling
-      next to stable orbits;
-    - branches of a period up to 9 that leave other branches next to stable orbits and begin with
-      stable orbits;
+    - branches that leave a branch of period 1 or 3: at each loss of symmetry, and at a period
+      doubling if orbits of this branch beside the doubling are stable;
+    - branches that leave a branch of another period at an event beside which orbits of this branch
+      are stable, if they have a period up to 9 and begin with stable orbits;
     - the branch of symmetric orbits, or of half the period, at which a branch of a period up to 4
       ends.
 
@@ -135,9 +135,9 @@ def orbit_branches(
         For each `point`, in order along the branches, an orbit: the parameter, the largest
         displacement, stability, Floquet multipliers, contacts, the state and its phase, the
         residual, and the relative error of the monodromy matrix's determinant. `orbit_status` says
-        how reliable the orbit is. For each `event`: its kind, which is fold, symmetry breaking,
-        period doubling, Neimark-Sacker bifurcation, grazing (a contact appears or vanishes in
-        flight) or merging (two contacts with one wall become one, or one contact becomes two). For
+        how reliable the orbit is. For each `event`: its kind, which is fold, symmetry breaking (a
+        loss of symmetry), period doubling, Neimark-Sacker point, grazing (a contact appears or
+        vanishes in flight) or merging (two contacts with one wall become one, or the reverse). For
         each (branch, edge): the reason why the branch ends. With `motions`: `seeds`, the number of
         settled motions (with a damper only motions with contacts), and `seeds_lost`, the number of
         seeds near which no orbit of equal period was found. Mirror images count as one branch.
@@ -282,7 +282,7 @@ def orbit_variables(pairs):
 
 
 def branches_dataset(branches, back, parameters, title, model=None, more=None):
-    """Return a dataset of branches. `back` maps the followed number back to the parameter."""
+    """Return a dataset of branches. `back` maps `Point.value` to the parameter (see `LINEAR`)."""
     points = [(back(point.value), point.orbit) for branch in branches for point in branch.points]
     sizes = [len(branch.points) for branch in branches]
     events = [(number, *pair) for number, branch in enumerate(branches) for pair in branch.events]

@@ -134,7 +134,7 @@ def cut(orbit, cycle, between=()):
 
 
 def _sections(orbit, cycle, between):
-    """Return two lists of phases: possible cuts, the first in the longest flight; forced cuts."""
+    """Return two lists of phases: all possible cuts, and the cuts that `between` requires."""
     log, first = orbit.contacts, orbit.phase
     begins, ends = (orbit.p[FREQUENCY] * log[:, k] for k in (1, 2))
     following = np.append(begins[1:], begins[0] + orbit.periods * 2 * np.pi)
@@ -150,7 +150,7 @@ def _sections(orbit, cycle, between):
             longest = max(longest, (high - low, middle))
     start = longest[1]
     # If `cycle` is half the period, flights half a period apart have the same phase modulo `cycle`
-    # and count once. The shift by 1e-9 keeps `start` first in spite of rounding errors.
+    # and count once. The shift by 1e-9 keeps `start` (in the longest flight) first.
     places = np.sort(start + (np.array([*middles, start]) - start + 1e-9) % cycle - 1e-9)
     places = places[np.append(True, np.diff(places) > 1e-6)]
     places = places[places < start + cycle - 1e-6]
@@ -214,8 +214,8 @@ def flow_all(p, states, tangents, times, tolerance):
 def slopes_of_ends(p, rate, phases, states, ends, sign, tolerance, slopes):
     """Compute the derivatives of the segments' `ends` by a parameter, with central differences.
 
-    `rate` is the derivative of the array `p` by this parameter. `sign` is `Orbit.sign`. `slopes`
-    receives the first n components of each derivative, shape (m, n).
+    `rate` is the derivative of the array `p` by this parameter. `sign` is `Orbit.sign`. `slopes`,
+    shape (m, n), receives the first n components of each derivative: 4, or 2 without a damper.
     """
     work, none = workspace(), np.empty((0, 4))
     ahead, behind, moved = np.empty(4), np.empty(4), np.empty(COUNT)

@@ -14,8 +14,8 @@ ITERATIONS, FAR = 20, 10.0
 NEAR = 1e-6
 # Multiple shooting is used if `Orbit.amplification` exceeds AMPLIFYING.
 AMPLIFYING = 100.0
-# An orbit is divided into segments at most CUTS times. It is divided again if the norm of a
-# segment's derivative is ROUGH times `segments.AMPLIFIED` or more.
+# After Newton's method an orbit is divided into segments anew if the norm of a matrix in its
+# `factors` is ROUGH x `segments.AMPLIFIED` or more, until it has been divided CUTS times.
 CUTS, ROUGH = 4, 4.0
 
 

@@ -1,7 +1,7 @@
 """Switch to the branches that leave where an orbit loses its symmetry or doubles its period.
 
-The other branch begins in the direction of the eigenvector of the multiplier -1. Newton's
-corrections are orthogonal to this direction and therefore do not lead back to the first branch.
+The new branch begins in the direction of the eigenvector of -1 in `Orbit.cycle_multipliers`. The
+corrections by Newton's method are orthogonal to it and do not lead back to the first branch.
 """
 
 from dataclasses import replace
@@ -18,13 +18,13 @@ from impact_damper.orbits.shooting import shoot
 # First guesses lie at each of DISTANCES from the bifurcation. The orbit found may lie ASIDE times
 # this distance away from its first guess.
 DISTANCES, ASIDE = (2e-2, 4e-3, 8e-4, 1e-4, 1e-5), 0.5
-# If these guesses fail, a grazing may be near. New guesses change |Z2| - d0 in an extremum of Z2 by
-# a share in SHARES, and lie within REACH of the bifurcation. The distance of the orbit found may
-# have a relative error up to MISSED. At most PASSAGES orbits are followed through the grazing.
+# If these guesses fail, a grazing may be near. New guesses multiply |Z2| - d0 in an extremum of Z2
+# by 1 + each of SHARES, within REACH of the bifurcation. An orbit found may be nearer or farther by
+# the fraction MISSED. Through the grazing, at most PASSAGES orbits found are followed.
 SHARES, MISSED, REACH, PASSAGES = (0.5, 0.2, 0.1, 0.05, 0.02), 0.5, 1e-3, 2
 # Kinds of events at which another branch leaves.
 LEAVING = ("symmetry_breaking", "period_doubling")
-# Where a branch meets a more symmetric branch, the orbits of the two are at most this far apart.
+# Where a branch meets a more symmetric branch, the orbits of both are at most this far apart.
 MEETING = 1e-3
 
 
@@ -53,7 +53,7 @@ def _leaving(event):
     """Return the `Problem`, first unknowns and direction of the branch that leaves at an event."""
     point, problem = event.point, event.point.problem
     doubled = event.kind == "period_doubling"
-    # One `problem.cycle` later, the orbit is multiplied by `sign` and the deviation by -`sign`.
+    # After `problem.cycle` the orbit's state is multiplied by `sign`, the eigenvector by -`sign`.
     sign, size = (1 if doubled else -1), 4 if problem.damped else 2
     factors = point.orbit.factors[:, :size, :size].copy()
     factors[-1] *= -1
@@ -147,8 +147,8 @@ def _more_symmetric(branches, branch, edge):
 def _new_branch(branches, branch, place, event):
     """Return a point of a new branch that leaves at an event, or None.
 
-    A period doubling must lie next to stable orbits. If the period of `branch` is not in WHOLE,
-    each event must, and the new branch must begin stable and have a period up to STABLE.
+    A period doubling must lie next to stable orbits. If the period of `branch` is not in WHOLE, a
+    loss of symmetry must too, and the new branch must begin stable, with a period up to STABLE.
     """
     ends = {0: branch.ends[0], len(branch.points) - 1: branch.ends[1]}
     if event.kind not in LEAVING or ends.get(place) == event.kind:

@@ -1,6 +1,6 @@
 """Plots of results, such as `impact_damper.plot.response(data)`.
 
-Each function except `conclusion` draws on the given `axes`. Then `axes.legend()` adds a legend.
+Each function except `conclusion` draws on the given `axes`, without a legend: call `axes.legend()`.
 Without `axes` the function makes a figure with a legend.
 """
 

@@ -42,7 +42,7 @@ def branch(data, axes=None):
     Parameters
     ----------
     data : xarray.Dataset or list of xarray.Dataset
-        Results of `orbit_branches`. All results vary one parameter.
+        Results of `orbit_branches`, all with one value of the argument `parameter`.
     axes : matplotlib.axes.Axes, optional
 
     Returns
@@ -86,7 +86,7 @@ def followed_label(data):
 
 
 def runs(data, chosen):
-    """Yield the `parts_by_stability` of each branch for whose period `chosen` is true."""
+    """Yield the `parts_by_stability` of each branch whose period fulfils the condition `chosen`."""
     stable = data["orbit_stability"].values == flag("orbit_stability", "stable")
     value, size = data["followed_value"].values, data["orbit_displacement"].values
     for branch, period in enumerate(data["branch_period"].values):

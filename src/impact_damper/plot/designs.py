@@ -39,7 +39,7 @@ def conclusion(data) -> list[str]:
     """Return the conclusion of a design: four paragraphs, and further paragraphs for exceptions.
 
     The four paragraphs say what to build, how far the machine moves with the damper, how sure the
-    promise is, and which condition matters most. Jinja2 must be installed.
+    promise is, and which change of gap or excitation breaks it first. Jinja2 must be installed.
 
     Parameters
     ----------

@@ -45,7 +45,7 @@ def draw_answer(data):
 
 
 def frequency_panel(axes, data):
-    """Draw displacements against the forcing frequency: bounds as lines, motions as points."""
+    """Draw promised displacements against the forcing frequency as lines, and motions as points."""
     frequency = data["promise_frequency"].values
     plot_sizes(axes, frequency, data["promise_bare_displacement"].values, **BARE)
     if "competitor_displacement" in data:
@@ -68,9 +68,9 @@ def frequency_panel(axes, data):
 
 
 def over_frequency(data) -> tuple:
-    """Return two arrays of displacements over frequency: for nominal values, for the worst values.
+    """Return promised displacements over frequency: for nominal values, and the largest.
 
-    At each frequency the worst values within the tolerances count. NaN is interpolated.
+    The largest is taken over all values within the tolerances that were tried. NaN is interpolated.
     """
     frequency, table = data["promise_frequency"].values, data["promise_displacement"].values
     rows = []
@@ -173,7 +173,7 @@ def draw_transients(data):
 
 @style.context({"axes.labelsize": 8.0, "lines.markersize": 2.6})
 def draw_machines(*, machines):
-    """Return the figure of several machines. Each row has the two panels of `draw_answer`."""
+    """Return a figure with a row for each machine: over frequency and over gap (`draw_answer`)."""
     drawn = style.figure("double", 1.0 + 1.75 * len(machines))
     panels = drawn.subplots(len(machines), 2, squeeze=False)
     for (left, right), data, letter in zip(panels, machines, ascii_lowercase, strict=False):

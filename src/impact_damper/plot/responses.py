@@ -154,7 +154,7 @@ def _draw_motions(axes, motions):
 
 
 def _branch_lines(motions, chosen):
-    """Yield frequencies and displacements of a line for each branch and period, with its ends."""
+    """Yield a line (frequencies, displacements) for each branch and period, up to known ends."""
     branch, period = motions["branch"].values, motions["period"].values
     names = ("end_branch", "end_direction", "end_value", "end_displacement")
     ends = list(zip(*(motions[name].values for name in names), strict=True))
@@ -171,7 +171,7 @@ def _branch_lines(motions, chosen):
 
 
 def _draw_unsettled(axes, motions, looks):
-    """Draw unsettled motions as points. Chaos that ended in a run is drawn as a transient."""
+    """Draw unsettled motions as points, and chaos as a transient where `life_ends` > 0."""
     for status, look in looks.items():
         outcome = "chaotic" if status == "chaotic_transient" else status
         chosen = motions["outcome"].values == flag("outcome", outcome)

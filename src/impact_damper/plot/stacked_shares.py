@@ -103,7 +103,7 @@ def _ranked_motions(data):
 
 
 def _parts(data, kind, places):
-    """Return a motion's masks, keyed by kind. A chaotic motion that settled is a transient."""
+    """Split the mask of a motion by kind. Chaos is a chaotic transient where `life_ends` > 0."""
     if kind != "chaotic" or "life_ends" not in data:
         return {kind: places}
     ended = data["life_ends"].values > 0

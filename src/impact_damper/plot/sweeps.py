@@ -25,9 +25,9 @@ VARIED = ("damping", "frequency", "restitution", "mass_ratio")
 
 
 def sweep(data, axes=None):
-    """Draw the largest displacement of the quiet motion against clearance, and mark the minimum.
+    """Draw the largest displacement of the quiet orbit against clearance, and mark the minimum.
 
-    Points show the exact motion. Lines show the amplitude by harmonic balance. For inelastic
+    Points show the exact orbit. Lines show the amplitude by harmonic balance. For inelastic
     contact harmonic balance gives no optimum, and the lines join the points.
 
     Parameters
@@ -52,7 +52,7 @@ def sweep(data, axes=None):
     if len(sweeps) > len(style.CURVES):
         raise TypeError(f"data = {len(sweeps)} datasets: must be at most {len(style.CURVES)}")
     with sheet(axes) as (axes,):
-        # The legend has one entry for each curve. Entries that hold for all curves are grey.
+        # The legend has one coloured entry for each sweep. Grey entries explain shared markers.
         for index, words in enumerate(_titles(sweeps)):
             axes.plot([], [], **style.points(index) | style.curve(index), label=words)
         if any(map(_balanced, sweeps)):

@@ -119,7 +119,7 @@ def _one_line(text):
 
 # Decay time: time in which an unforced vibration falls to this fraction of the first displacement.
 DECAY = 0.1
-# Names on the page. ADDITIONS: additions to the decision. QUANTITIES: values that may deviate.
+# Words on the page. ADDITIONS: for `design.additions`. QUANTITIES: for values with a tolerance.
 ADDITIONS = {
     "response": "motions and forces at the gap",
     "orbits": "the quiet orbit over the gap",
@@ -183,7 +183,7 @@ def size(value, unit="mm", digits=3) -> str:
 
 def numbers_of(data) -> dict:
     """Return a dictionary of the numbers and texts of a design that templates show."""
-    asked = parameters_of(data)
+    asked = parameters_of(data)  # arguments of the design
     gap, tolerances = float(data["design_gap"]), asked["tolerances"]
     tolerance = tolerances.get("gap", 0.0)
     ends = gap * (1 - tolerance), gap * (1 + tolerance)
@@ -328,7 +328,7 @@ def _worse(data, nominal):
 
 
 def _other_mass(data, asked):
-    """Return the heavier damper if it is good enough and this damper is not, otherwise None."""
+    """Return a heavier damper that is good enough if the damper asked for is not, or None."""
     missed = named(data, "limit_status") == "missed"
     fails = missed or named(data, "decision") == "do_not_build"
     if "other_mass" not in data or not fails:
@@ -344,7 +344,7 @@ def _other_mass(data, asked):
 
 
 def _masses(data, asked):
-    """Return table rows: this damper, heavier damper; [] if no heavier damper was computed."""
+    """Return table rows: the damper asked for, a heavier one; [] if no heavier one was computed."""
     if "other_mass" not in data:
         return []
     names = ("other_mass", "other_gap", "other_displacement", "other_force")
