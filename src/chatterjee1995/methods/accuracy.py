@@ -59,7 +59,7 @@ class ComparisonScene(NamedTuple):
 
     @property
     def p(self):
-        """Parameters in the array that kernels read."""
+        """Packed parameters."""
         return pack(self.oscillator, self.damper, self.frequency)
 
 
@@ -89,7 +89,7 @@ def reference_of(scene, stored):
 
 
 def accuracy(system, damper, *, name, settings, references, **given):
-    """Return a dataset: errors and work of the runs of all methods on the scene `name`.
+    """Return a dataset: errors and operations of integrators and models on the scene `name`.
 
     `settings` is the section `comparison`. `given` are the other fields of `ComparisonScene`.
     """
@@ -117,7 +117,7 @@ def _integrations(scene, settings, slow_periods):
         run = orbit_models.rigid(p, restitution, *given[1:], tolerance)
         yield "rigid", tolerance, run, scene.periods
     for label, (integrator, locate) in runs_of_accuracy().items():
-        # Without a damper there are no contacts, and both values of `locate` give the same run.
+        # `locate` makes steps end at contacts. Without a damper there are none: one run is enough.
         if scene.damper is None and locate and False in integrator.located:
             continue
         tolerances, periods, most = settings[integrator.tolerances], scene.periods, None
@@ -177,7 +177,7 @@ def _named(scene, rows, status, errors):
 
 
 def _orbits(scene, settings):
-    """Yield (label, setting, `Model`) for each model of a steady motion."""
+    """Yield (label, highest harmonic or tolerance, `Model`) for each model of a steady motion."""
     parts = scene.oscillator, scene.damper, scene.frequency
     state = np.array(scene.state, float)
     yield "rigid_balance", 1, orbit_models.rigid_balance(*parts, state)

@@ -13,7 +13,7 @@ from impact_damper.motions.strobe_map import strobe_time
 
 
 def of_run(p, run, begin, periods, batch):
-    """Return a dict: mean contacts per cycle, and mean max |Z1|, in each batch of cycles."""
+    """Return a dict: means of contacts and of max |Z1| in a cycle, for each batch of cycles."""
     count = periods // batch
     edges = begin + 2 * math.pi / p[FREQUENCY] * np.arange(count * batch + 1)
     contacts = np.histogram(run.contact_times, edges)[0]

@@ -1,8 +1,8 @@
-"""Closed form of one contact under a constant load G. Two rules say when the contact ends.
+"""Closed form of one contact under a constant load. Two rules say when the contact ends.
 
-Time t and penetration q are scaled: s = wn t, u = wn q/v0. wn is the natural frequency of the
-contact, v0 the approach speed, z the damping ratio. Then u'' + 2 z u' + u = G, and the wall force
-is F = u + 2 z u'. A contact ends at u = 0 (`zero_penetration`, appendix B) or F = 0 (`no_tension`).
+Scaled time is s = wn t, scaled penetration u = wn q/v0. u'' + 2 z u' + u = G, with the damping
+ratio z. `stages.contact_model` defines wn, v0 and the load G. The wall force is F = u + 2 z u'. A
+contact ends at u = 0 (`zero_penetration`, appendix B) or F = 0 (`no_tension`).
 """
 
 import math
@@ -14,7 +14,7 @@ from impact_damper.model.exit_rules import damping_ratio
 
 
 class Exit(NamedTuple):
-    """The end of a contact: outcome, scaled duration s, last speed divided by the first, v0."""
+    """The end of a contact: how it ended, scaled duration, departure speed over approach speed."""
 
     outcome: str
     duration: float
@@ -75,7 +75,7 @@ def contact(restitution, load, rule) -> Exit:
 
 
 def pull_time(restitution, load) -> float:
-    """Return the fraction of a contact during which the wall pulls; NaN if it never ends."""
+    """Return the fraction of a contact in which the wall pulls; NaN if the contact never ends."""
     penetration, force = _waves(restitution, load)
     end = penetration.first_fall()
     return math.nan if end == math.inf else (end - min(force.first_fall(), end)) / end

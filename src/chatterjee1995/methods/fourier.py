@@ -25,7 +25,7 @@ def value(coefficients, harmonics, angle, order=0) -> np.ndarray:
 
 
 def product_samples(harmonics, degree) -> int:
-    """Return how many samples of a product of `degree` series give its `harmonics` exactly."""
+    """Return how many samples of a product of `degree` series yield exact c_k at `harmonics`."""
     return next_fast_len((degree + 1) * int(harmonics[-1]) + 1, real=True)
 
 

@@ -16,7 +16,7 @@ EDGE = 1e-2
 class Exponents(NamedTuple):
     """Floquet exponents per unit of T, sorted by real part; all NaN if the status is not "found".
 
-    The status is "not_separated" if not exactly 2 copies (4 with a damper) have -W < Im <= W.
+    The status is "not_separated" if not exactly 2 values (4 with a damper) have -W < Im <= W.
     """
 
     values: np.ndarray

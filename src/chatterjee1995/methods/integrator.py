@@ -14,8 +14,8 @@ HALVINGS = 54  # number of bisections that locate a root to the accuracy of floa
 class Run(NamedTuple):
     """A computed motion. `status` is "ended", "failed", or "capped" (too many evaluations).
 
-    `operations` counts floating-point operations. `state` is the last state. Contacts begin at
-    `contact_times`. `peaks` are |Z1| at or near `peak_times`. `displacement` is the largest peak.
+    `state` is the last state, `displacement` max |Z1|. Contacts begin at `contact_times`. `peaks`
+    are |Z1| at `peak_times` (at turning points) or, with rigid walls, max |Z1| in each cycle.
     """
 
     status: str
@@ -41,8 +41,8 @@ class Integrator:
     number of steps in a cycle if all steps are equal (`fixed`), and otherwise a tolerance.
 
     Figures show integrators in the order of `place`. `compared` names the stages that use the
-    integrator. For each stage it defines one of the functions in REQUIRED. `located` holds the
-    values of `locate` to run in the stage `accuracy`. `tolerances` is one of
+    integrator, which defines one of the functions that REQUIRED lists for each of these stages.
+    `located` holds the values of `locate` to run in the stage `accuracy`. `tolerances` is one of
     `labels.TOLERANCE_KEYS`. Runs of a `slow` integrator are shortened. `stability_limit` is the
     largest step, times natural frequency, that keeps an undamped linear oscillation bounded.
     """
@@ -76,11 +76,11 @@ class Integrator:
         return read_off(p, work, times, ends)
 
     def flight(self, p, state, end, resolution, time):
-        """Run from T = 0 without walls; return |Z2| at step ends and at `time`, or None."""
+        """Run from T = 0 without walls; return |Z2| at step ends and at `time`. None: failed."""
         raise NotImplementedError
 
     def touches(self, p, state, levels, resolution):
-        """Return whether the motion touches a wall at each level; None if `flight` shows this."""
+        """Return whether contacts occur, by clearance in `levels`; None lets `flight` decide."""
 
     def largest_displacements(self, p, start, begin, periods, steps) -> np.ndarray:
         """Return max |Z1| in each cycle, with `steps` equal steps a cycle; NaN after divergence."""

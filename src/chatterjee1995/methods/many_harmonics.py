@@ -41,7 +41,7 @@ class Balance:
 
     @cached_property
     def packed(self) -> np.ndarray:
-        """Parameters of the oscillator in the array that kernels read."""
+        """Packed parameters of the oscillator without a damper."""
         return pack(self.oscillator, None, self.frequency)
 
     @property
@@ -70,7 +70,7 @@ class Balance:
         return fourier.intervals(coefficients[1], self.harmonics, self.damper.clearance)
 
     def residual(self, coefficients, rows) -> np.ndarray:
-        """Return left minus right side of (3), (4), (20), (21) by harmonic; `rows`: `contacts`."""
+        """Return left minus right side of (3), (4), (20), (21). `contacts` returns `rows`."""
         k, rate, own = self.harmonics, self.rates, self.oscillator
         first = coefficients[0]
         count = fourier.product_samples(k, SPRING_POWER)
@@ -204,7 +204,7 @@ def single_term(oscillator, damper, frequency) -> np.ndarray:
 
 
 def refine(balances, start) -> list:
-    """Return the `Solution` of each balance. The first guess is the last converged solution."""
+    """Solve each balance from the last coefficients that converged, the first from `start`."""
     solutions = []
     for balance in balances:
         solutions.append(solve(balance, start))

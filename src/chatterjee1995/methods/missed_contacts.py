@@ -68,7 +68,7 @@ def missed_contacts(
 
 
 def counts(integrator, p, passages, depths, resolution):
-    """Count passages by (depth, outcome), and false contacts by depth; also return median error."""
+    """Return `passage_count` (depth, contact_outcome), `spurious_count` and `motion_error`."""
     end = 2 * math.pi / p[FREQUENCY]
     touching = np.zeros((len(depths), len(OUTCOMES)), int)
     spurious = np.zeros(len(depths), int)

@@ -164,7 +164,7 @@ def newton_work(balance):
 
 
 def rigid_impacts(oscillator, damper, frequency, start):
-    """Return a dict of the models "rigid" and "rigid_mended" (corrected walls) near `start`."""
+    """Return a dict of the models "rigid" and "rigid_mended" (see `mended_orbit`) near `start`."""
     if damper is None:
         return dict.fromkeys(("rigid", "rigid_mended"), without("not_applicable"))
     system = oscillator, damper, frequency

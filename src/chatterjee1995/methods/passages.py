@@ -68,7 +68,7 @@ def without_walls(p):
 
 
 def draw_passages(p, count, radius, deepest, seed) -> list:
-    """Return a list of `count` passages. The states at T = 0 are random in a ball with `radius`.
+    """Return `count` passages for contact depths up to `deepest`, from random states in a ball.
 
     A passage is kept if max |Z2| exceeds 2 * deepest and exceeds |Z2| at both ends by `deepest`.
     """

@@ -38,7 +38,7 @@ def compliant_orbit(p, guess, reach, *, tolerance=POLISH_TOLERANCE, asymmetry=SY
     return CompliantOrbit(p, state, multiplier, float(record["maximum_displacement"])), "found"
 
 
-# Phase W T at which the states of orbits are given. Contacts take place at other phases.
+# Phase W T of all states in `find_quiet_orbit`. Contacts take place at other phases.
 PHASE = 0.75 * np.pi
 REACH = 0.05  # largest distance of the state of an orbit from the guess
 SHORTEST = 2.0**-12  # shortest step between two cells, divided by the distance of the cells
@@ -49,10 +49,10 @@ NEAR = 4
 class QuietOrbits(NamedTuple):
     """Quiet orbits on a grid, NaN in cells without one; shape (rows, columns).
 
-    multiplier: The root's eigenvalue of largest modulus; of a complex pair, the one with Im > 0.
+    multiplier: The root's eigenvalue of largest modulus (Im >= 0). Its square is a multiplier.
     displacement, harmonic: max |Z1|, and the amplitude of the first harmonic of Z1.
-    end: First and last column, in fractions, at which a row has orbits; shape (rows, 2).
-    end_event: Event at each end: map_ends, no_orbit, fold, contacts_change or not_converged.
+    end: Column numbers, with a fraction, at which a row's orbits begin and end; shape (rows, 2).
+    end_event: map_ends (edge of the grid), no_orbit, fold, contacts_change or not_converged.
     """
 
     multiplier: np.ndarray
@@ -112,7 +112,7 @@ def _dominant_root(orbit):
 
 
 def _row_ends(grid, row):
-    """Return the columns, in fractions, at which the orbits of a row end, and the events there."""
+    """Return a row of `QuietOrbits.end`, and of `end_event`."""
     columns = [column for first, column in grid.orbits if first == row]
     if not columns:
         return [np.nan] * 2, ["no_orbit"] * 2
@@ -131,7 +131,7 @@ def _end(followed):
 
     Near a fold, det(1 - root) is proportional to the square root of the distance to the fold.
     """
-    # This step failed in `spread`. It can succeed now that the orbit behind this cell is known.
+    # This step failed in `spread`. It can succeed now that the opposite neighbour is known too.
     if followed.arrived:
         return 0.0, "not_converged"
     before, fraction = followed.values
@@ -146,8 +146,8 @@ def _end(followed):
 # The ratio rm W^2 d0/f by rule (18) if the first harmonic of Z2 replaces d0. This harmonic is
 # 8 d0/pi^2 if the primary mass rests and the loose mass flies to and fro at constant speed.
 FIRST_HARMONIC_RATIO = np.pi**2 / 8
-# Impulse q of an impact, and phase phi of a turning point, if |Z1| is equally large at both. For
-# e = 1, h = 0 and no spring, q - 1 = cos(phi) - q + 2 q phi/pi and sin(phi) = 2 q/pi.
+# Impulse q for which |Z1| is equally large at an impact and at a turning point, with the phase phi
+# (`Flight`). For e = 1, h = 0, no spring: q - 1 = cos(phi) - q + 2 q phi/pi, sin(phi) = 2 q/pi.
 IMPULSE, TURN = 1.1382168528663819, 0.8104702831754177
 # CRITERIA: quantities of Z1. An optimum clearance minimises one of these quantities.
 # RULES: rules for the optimum clearance, see `rule_ratios`.
@@ -156,7 +156,7 @@ RULES = ("balance", "gap_harmonic", "straight_flight", "elastic", "flight")
 
 
 def elastic_ratios(flight) -> tuple[float, float]:
-    """Return the optimum rm W^2 d0/f for both CRITERIA, for short contacts and small damping."""
+    """Return the optimum rm W^2 d0/f of a `Flight` by both CRITERIA, linear in W/wn and h/W."""
     if flight.restitution != 1:
         return np.nan, np.nan
     contact, damping, whole = flight.contact, flight.damping, 1 + flight.mass_ratio
@@ -168,11 +168,11 @@ def elastic_ratios(flight) -> tuple[float, float]:
 
 
 def least_harmonic_ratio(flight) -> float:
-    """Return rm W^2 d0/f at which the first harmonic of Z1 is smallest.
+    """Return rm W^2 d0/f at which the first harmonic of Z1 in a `Flight` is smallest.
 
-    Impacts with the impulse q take place at the phase p after the maximum of the forcing. Forcing
-    and impacts together have the first harmonic 1 - c q exp(-i p), with c = 8/pi^2. Its modulus is
-    smallest if tan(2 u) = 2 l cos(n)/(c - 2 l sin(n)), l = `flight.loss`, sin(u) = q l, n = u - p.
+    Impacts have an impulse q and the phase u - n after the maximum of the forcing: sin(u) = l q,
+    l = `loss`, n = `forced_lag` + `setback`. The first harmonic of forcing and impacts together is
+    1 - c q exp(i (n - u)), c = 8/pi^2. It is smallest if tan(2 u) = 2 l cos(n)/(c - 2 l sin(n)).
     """
     factor = 8 / np.pi**2
     loss = flight.loss
@@ -186,9 +186,9 @@ def least_harmonic_ratio(flight) -> float:
 def rule_ratios(oscillator, damper, frequency):
     """Return the optimum rm W^2 d0/f: a row for each of CRITERIA, a column for each of RULES.
 
-    `balance` is rule (18). `gap_harmonic` is FIRST_HARMONIC_RATIO. `straight_flight` is the optimum
-    for straight flight between rigid walls. `elastic` is corrected for short contacts and small
-    damping (NaN if e < 1), `flight` for the duration of contacts, damping and stiffness.
+    `balance` is rule (18). `gap_harmonic` is FIRST_HARMONIC_RATIO. `flight` is the optimum of the
+    damper's `Flight`. `straight_flight` is the optimum of a `Flight` between rigid walls, without
+    damping and linear stiffness of the machine. `elastic` is `elastic_ratios`, NaN if e < 1.
     """
     flight = flight_of(oscillator, damper, frequency)
     straight = Flight(damper.mass_ratio, damper.restitution)

@@ -59,10 +59,10 @@ def rebound(p, restitution, y, tangents, t):
 def rigid_map(p, restitution, y, tolerance):
     """Integrate the rigid model over one forcing cycle from the state y at W T = pi/2.
 
-    p must have no dashpot. Return the final state, its derivative by y, the number of impacts, the
-    smallest |Z2'| before an impact (or infinity), a pair for the first impact, and max |Z1|. The
-    pair holds |Z2'| and the acceleration of Z1 towards the wall just before the impact (or NaN).
-    After MOST_IMPACTS impacts, only the number of impacts is valid.
+    The walls in p must have no dashpot. Return the final state, its derivative by y, the number of
+    impacts, the smallest |Z2'| before an impact (or infinity), a pair for the first impact, and max
+    |Z1|. The pair holds |Z2'| and the acceleration of Z1 towards the wall just before the impact
+    (or NaN). After MOST_IMPACTS impacts, only the number of impacts is valid.
     """
     state = y.copy()
     tangents = np.eye(4)
@@ -86,7 +86,7 @@ def rigid_map(p, restitution, y, tolerance):
 
 
 def without_dashpot(p):
-    """Return a copy of packed parameters without a dashpot, for the rigid model."""
+    """Return a copy of packed parameters without the dashpot of the walls, for the rigid model."""
     p = p.copy()
     p[DASHPOT] = 0.0
     return p

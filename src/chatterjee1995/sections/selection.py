@@ -39,7 +39,7 @@ def read_by(config, stage, name) -> dict:
 
 
 def figure_data(config, name) -> dict:
-    """Return a dict: stage -> entries that a figure draws, and branches without damper."""
+    """Return a dict: stage -> entries that a figure draws. `Kind.damper` may add some."""
     figure = config.figures[name]
     kind, found = KINDS[figure.kind], {}
     for stage in kind.stages:

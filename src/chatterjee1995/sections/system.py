@@ -128,7 +128,7 @@ class WithDamper(keys_of(DAMPER, needed=NEEDED, without=[COMMON]), WithOscillato
 
 
 class MaybeWithDamper(keys_of(DAMPER, without=[COMMON]), WithOscillator):
-    """An entry with an oscillator, and with a damper or without."""
+    """An entry with an oscillator, and with a damper (all parameters in `whole`) or without."""
 
     whole: ClassVar = NEEDED
 
@@ -141,7 +141,7 @@ class MaybeWithDamper(keys_of(DAMPER, without=[COMMON]), WithOscillator):
                 yield missing((*path, key), reason)
 
     def has_damper(self) -> bool:
-        """Return whether the entry has a damper: one of the parameters in `whole` is given."""
+        """Return whether the entry has a damper, shown by one of the parameters in `whole`."""
         return bool(given(self, self.whole))
 
     def system(self, config) -> dict:

@@ -159,7 +159,7 @@ class _Row(NamedTuple):
 
 
 def balance_map(parameter, values, frequency_ratios, fixed, *, settling, workers=1, progress=None):
-    """Return a dataset: harmonic balance and exact motions over a parameter (rows) and W/Wp.
+    """Return a dataset: harmonic balance and exact motions over a parameter (rows) and frequency.
 
     `fixed` holds the other parameters. If no clearance is given, rule (19) sets one for each row.
     """
@@ -251,7 +251,7 @@ def _kinds(records, resonance):
 
 
 def _quiet_verdict(balance, orbits):
-    """Return the flag `quiet_verdict`. Beyond a fold or a change of contacts no orbit exists."""
+    """Return the flag `quiet_verdict`. No quiet orbit lies beyond a fold or change of contacts."""
     size = np.abs(orbits.multiplier)
     columns = np.arange(size.shape[1])
     ended = np.isin(orbits.end_event, ["fold", "contacts_change"])

@@ -87,7 +87,7 @@ def spread_loads(largest, count):
 
 
 def contact_map(restitutions, loads):
-    """Return the realised restitution (NaN without release) and a verdict, by rule, load and e."""
+    """Return the realised restitution (NaN: no separation) and a verdict, by rule, load and e."""
     shape = len(EXIT_RULES), len(loads), len(restitutions)
     realised, verdict = np.empty(shape), np.empty(shape, np.int8)
     for i, j, k in np.ndindex(shape):
@@ -116,7 +116,7 @@ def unloaded_table(restitutions):
 
 
 def extreme_motions(oscillator, damper, frequency, starts, seed, settling):
-    """Return the smallest settled and the largest motion with contacts (None if there is none)."""
+    """Of motions with contacts, return the smallest settled one and the largest (each or None)."""
     p = pack(oscillator, damper, frequency)
     states = random_states(starts, damper.clearance, damper, seed)
     motions = ensemble.settle(np.tile(p, (starts, 1)), states, settling)

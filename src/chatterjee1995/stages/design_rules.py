@@ -130,7 +130,7 @@ class QuietMotion:
         return *(scale * size for size in sizes), abs(orbit.multiplier)
 
     def least(self, criterion, guess):
-        """Return the ratio and the kind of a local minimum of the criterion near `guess`."""
+        """Return ratio and kind of a local minimum near `guess` of `at(ratio)[criterion]`."""
         middle, lower, upper = guess, guess * (1 - STEP), guess * (1 + STEP)
 
         def size(ratio):

@@ -56,11 +56,11 @@ STARTS, LARGE, LAST_CHANGE, CLOSE = 12, 30.0, 1e-6, 0.95
 
 
 def asymptotic_harmonic(damper, frequency) -> float:
-    """Return the harmonic number N above which the predicted powers can hold; 1 without a damper.
+    """Return the harmonic above which the predicted powers of 1/N can hold; 1 without a damper.
 
-    Above this N, a contact (appendix B) lasts longer than a period of harmonic N. With a dashpot, N
-    also exceeds r1/(c W). Above r1/(c W), harmonic N comes more from the jump c Z2' of the contact
-    force than from the jump r1 Z2' of its slope.
+    Harmonics above the result have periods shorter than a contact (appendix B). With a dashpot, the
+    result is at least r1/(c W). Harmonics above r1/(c W) come more from the jump c Z2' of the
+    contact force than from the jump r1 Z2' of the slope of this force.
     """
     if damper is None:
         return 1.0
@@ -222,7 +222,7 @@ def errors(solutions, multipliers, exact):
 
 
 def _farthest(values, references):
-    """Pair each value with a near reference; return the largest distance in a pair."""
+    """Pair values with references, at least total distance; return the largest in a pair."""
     if np.isnan(values).any():
         return np.nan
     away = np.abs(values[:, None] - references)

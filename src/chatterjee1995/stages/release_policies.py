@@ -46,16 +46,16 @@ POLICIES = ["settled", "hold", "phase", "state"]
 # Policies choose among these numbers of cycles with the damper on. Successive ratios are about 1.6.
 HOLDS = (1, 2, 3, 5, 8, 13, 21, 34)
 QUANTILES = [0.5, 0.95]  # quantiles of the cycles until the goal
-# Results of a run with the damper on. `state`: Z1, Z1' at the strobe `ahead` cycles after its end.
+# A run with the damper on, and the `state` (Z1, Z1') at the next strobe, `ahead` cycles later.
 HELD = np.dtype(
     [("released", "?"), ("cycles", "f8"), ("impacts", "i8"), ("state", "f8", 2), ("ahead", "f8")]
 )
-# A rule that says when to switch the damper off, see `legs.hold`.
+# A rule: a policy (`kind`) with a number of cycles and the index of a phase, see `legs.hold`.
 RULE = np.dtype([("kind", "i8"), ("cycles", "f8"), ("phase", "i8")])
 
 
 class Outcome(NamedTuple):
-    """Results of n trials. `cycles` is the number of cycles to the goal, infinite if missed."""
+    """Results of trials: cycles to the goal (or infinity), cycles with the `damper` on, counts."""
 
     reached: np.ndarray
     cycles: np.ndarray
@@ -177,10 +177,10 @@ class Trials(NamedTuple):
 
 @kernel
 def hold_many(on, off, starts, draws, limits, rules, depth, half, tolerance, held, stop):
-    """In each trial switch the damper on, call `hold`, and run to the next strobe (W T = pi/2).
+    """In each trial switch the damper on, call `legs.hold`, and run to the next strobe.
 
-    `starts` (n, 2) are Z1 and Z1' at the strobe before switching on. `draws` are random numbers for
-    the phase of switching on, the place of the loose mass and the release. `held` is the output.
+    `starts` (n, 2) are Z1, Z1' at the strobe before. `draws` set the phase of switching on, the
+    place of the loose mass and the release. `held` is the output. `legs.hold` explains the rest.
     """
     none, path, work, y = np.empty((0, 4)), np.empty((0, 5)), workspace(), np.empty(4)
     period, first = 2.0 * math.pi / on[FREQUENCY], strobe_time(on)

@@ -116,7 +116,7 @@ def migration(
 
 
 def _example(totals):
-    """Return the index of a run that arrives after the median number of switchings (0 if none)."""
+    """Return the index of a run that succeeds after the median number of switchings (0 if none)."""
     reached = totals["trial_outcome"] == flag("trial_outcome", "reached")
     if not reached.any():
         return 0
@@ -125,7 +125,7 @@ def _example(totals):
 
 
 def _summary(switchings, totals):
-    """Return a dict: shares of runs that arrive, counts of releases by damped and free motion."""
+    """Return a dict: shares of runs that reach the goal, counts of releases by both motions."""
     reached = totals["trial_outcome"] == flag("trial_outcome", "reached")
     within = reached & (totals["total_time"] <= PAPER_CYCLES)
     before, after = switchings["released_from"], switchings["destination"]
@@ -187,7 +187,7 @@ def _life(p, path, record, tolerance):
 
 
 def release_data(case, motions, entries, settling):
-    """Return variables of the releases `entries`, and of evenly spaced releases from `motions`."""
+    """Return variables of releases: RELEASE rows `entries`, evenly spaced ones in `motions`."""
     number = len(entries)
     rows = [entries]
     for record in motions:

@@ -130,7 +130,7 @@ def is_subharmonic(data):
 
 
 def branch_ends(data, branch, grid, rows):
-    """Return both ends of a branch; an end not located is the last frequency on the branch."""
+    """Return the ends of a branch, located by the sweep `data`, else the outermost `grid[rows]`."""
     ends = grid[[min(rows), max(rows)]]
     for side, (row, step, turn) in enumerate(((min(rows), -1, "down"), (max(rows), 1, "up"))):
         if not 0 <= row + step < len(grid):

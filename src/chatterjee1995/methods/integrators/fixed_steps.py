@@ -11,7 +11,7 @@ from impact_damper.kernel.equation import external_force
 from impact_damper.model.packed import FREQUENCY
 
 VERLET, RUNGE_KUTTA_4, MERSON = NUMBERS = range(3)
-BEYOND = 1e3  # a run has diverged if |Z1| + |Z1'| + |Z2'| (in a flight: a component) reaches this
+BEYOND = 1e3  # a run has diverged if |Z1| + |Z1'| + |Z2'| (in `flight`: a component) reaches this
 
 
 @kernel

@@ -1,4 +1,4 @@
-"""The paper's method, Runge-Kutta-Merson. A step may have the error tolerance * (1 + |y|)."""
+"""The paper's method, Runge-Kutta-Merson. Error allowed in a step: tolerance * (1 + |y|)."""
 
 import math
 
@@ -13,7 +13,7 @@ from impact_damper.model.packed import CLEARANCE, FREQUENCY
 # Floating-point operations of a step: five evaluations of the rate, and their combinations.
 STEP_OPERATIONS = 366
 # A run fails if it diverges, needs a step below SHORTEST, or needs more steps than MOST_STEPS in a
-# call of `advance_merson`, MOST_ENDS in a forcing cycle, or MOST_FLIGHT_ENDS in a flight.
+# call of `advance_merson`, MOST_ENDS in a forcing cycle, or MOST_FLIGHT_ENDS in `flight`.
 SHORTEST = 1e-12
 MOST_STEPS, MOST_ENDS, MOST_FLIGHT_ENDS = 10**6, 400_000, 10**5
 FIRST = 1e-3  # length of the first step, divided by the forcing period or, in `flight`, by `end`

@@ -94,8 +94,8 @@ class SciPy(Integrator):
 
 
 # `operations` of an evaluation besides the rate: 2 (*, +) for each term, times 4 components.
-# DOP853: about 6 terms for the next state, and 4 terms for result and error.
-# LSODA: 21 terms for about 6 derivatives, and 2 * 4^2 operations that solve four linear equations.
+# DOP853: about 6 terms for the state of the next evaluation, 4 for the end of the step and error.
+# LSODA: 21 terms that predict 6 derivatives, and 2 * 4^2 operations to solve 4 linear equations.
 # `factorising`: 2/3 * 4^3 operations of an LU factorisation, in LSODA only.
 INTEGRATORS = (
     SciPy("DOP853", 4, operations=4 * 2 * (6 + 4)),

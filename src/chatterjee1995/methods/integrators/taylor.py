@@ -111,12 +111,12 @@ def counted(rows):
 
 
 def work_of_steps(counts, orders=ORDERS, tangents=False):
-    """Return the floating-point operations of steps, given the number of steps of each kind."""
+    """Return the operations of steps of each kind; `tangents`: with the variational equations."""
     return sum(count * step_work(kind, orders, tangents) for kind, count in enumerate(counts))
 
 
 def step_work(kind, orders=ORDERS, tangents=False):
-    """Return the operations of a step, by a formula that fits the generated source within 1 %."""
+    """Return the operations of a step, by formulas that agree with the kernels within 1 %."""
     n = orders[kind == CONTACT]
     if kind == CONTACT:
         return 1.5 * n**2 + 40 * n + 405 + tangents * (4.5 * n**2 + 73 * n)
