@@ -57,7 +57,7 @@ def main(
 
     Plain numbers are in kg, N/m, N, m and Hz.
 
-    In the documentation: "Describe a machine in a file" (all keys), "What it is for".
+    The documentation has a page "Describe a machine in a file" (all keys) and "What it is for".
     """
 
 
@@ -92,7 +92,7 @@ def evaluate(
 ):
     """Say how far the machine moves with a given gap, and how sure this answer is.
 
-    The answer is tested like the answer of `impact-damper design`.
+    The displacement is promised with 95 % confidence, as by `impact-damper design`.
     """
     from impact_damper.command.machine_file import design_arguments
     from impact_damper.design.design_damper import evaluate_damper
@@ -307,7 +307,7 @@ def quantity(text):
 
 
 def write_report(data, file, folder):
-    """Write the page of a dataset into a folder. Return its path. `file` is the dataset's file."""
+    """Write a page about `data`, kept in `file`, into a folder. Return the path of the page."""
     from impact_damper.plot.pages.render import write_page
 
     name = Path(data.attrs.get("input_file", file.name)).stem

@@ -178,7 +178,7 @@ class MachineEntry(section.Section):
             yield f"{section.dotted(path)}: {error}" if path else str(error)
 
     def _lacking(self, path):
-        """Yield a message for each missing key. Contact and stiffness must not both be given."""
+        """Yield a message for each missing key, and for `contact_stiffness` besides `contact`."""
         rival, ball = self.absorber.values(), self.contact.values()
         for key in Rival.model_fields:
             if rival and key not in rival:

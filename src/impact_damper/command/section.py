@@ -32,7 +32,7 @@ NUMBER, RANGE = "<number>", "<range>"
 class Allowed:
     """The allowed values of a key. An error says "must be" and `words`, not pydantic's message.
 
-    `test` is a function for lists and mappings. It returns whether the form is allowed.
+    For a list or a mapping, the function `test` returns whether the value is allowed.
     """
 
     def __init__(self, words, meaning="", why="", test=None):
@@ -66,7 +66,7 @@ class Allowed:
 
 
 def number(meaning="", *, above=None, least=None, most=None, why="", also=""):
-    """Return the type of a finite number. Errors name `also`, a word that may replace it."""
+    """Return the type of a finite number. Errors say that `also`, such as text, is allowed too."""
     bounds = {"greater than": above, "at least": least, "at most": most}
     words = [f"a finite number{also and f' or {also}'}", *_bounds(bounds)]
     kind = confloat(strict=True, allow_inf_nan=False, gt=above, ge=least, le=most)
@@ -185,7 +185,7 @@ class Section(BaseModel):
     @model_validator(mode="wrap")
     @classmethod
     def _name_keys(cls, value, handler):
-        """List all known keys in an error about an unknown key, or the needed keys if one lacks."""
+        """Name all known keys in errors about unknown keys, all needed keys if one is missing."""
         try:
             return handler(value)
         except ValidationError as error:

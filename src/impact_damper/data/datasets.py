@@ -39,14 +39,14 @@ def variable(name, data, dims=None) -> xr.Variable:
 
 
 def shown_variable(name, values):
-    """Return a registered variable for a machine. `values` are in the unit for it, such as mm."""
+    """Return a registered variable of a machine, with the unit of its kind (`QUANTITIES`)."""
     found = variable(name, values)
     found.attrs["units"] = QUANTITIES[VARIABLES[name].kind].label
     return found
 
 
 def dataset(data, coordinates, parameters, title, model=None) -> xr.Dataset:
-    """Return a dataset of registered variables, in the units of the machine if `model` has one.
+    """Return a dataset of registered variables, in mm, Hz and so on if `model` is of a machine.
 
     `data` and `coordinates` map registered names to dimensionless arrays or pairs (dims, array).
     """
@@ -75,8 +75,8 @@ def dataset(data, coordinates, parameters, title, model=None) -> xr.Dataset:
 def in_si(data, machine, damper=None) -> xr.Dataset:
     """Return a dimensionless dataset converted to the units of a machine.
 
-    Displacements are then in mm, but states in m and m/s, as functions take states. The attribute
-    `machine` holds machine and damper in SI units. The attribute `parameters` stays dimensionless.
+    Displacements are then in mm. States are in m and m/s, the units of states in arguments. The
+    attribute `machine` holds machine and damper in SI units, `parameters` stays dimensionless.
     """
     scales = machine.scales
     found = _converted(data, lambda values, unit: values * unit, scales)

@@ -5,7 +5,7 @@ import math
 import numpy as np
 from scipy.special import bdtr, gammaincinv  # `scipy.stats` takes half a second to import
 
-# Labels of the numbers that `wilson` and `escape_rate` return.
+# Labels of the three numbers that `wilson` and `escape_rate` return.
 BOUNDS = ["share", "lower", "upper"]
 # Quantile of the normal distribution for a two-sided 95 % interval.
 QUANTILE = 1.959963984540054
@@ -31,10 +31,10 @@ def wilson(successes, total):
 
 
 def bounding_rank(share, total, doubt=DOUBT) -> int:
-    """Return k. The k-th largest random sample is an upper bound for a share of all values.
+    """Return k: at least `share` of all values lie below the k-th largest of `total` samples.
 
-    There are `total` samples. The bound has the confidence 1 - doubt for any distribution (S. S.
-    Wilks, Ann. Math. Stat. 12, 1941). With too few samples k is 0.
+    This holds with the confidence 1 - doubt for any distribution (S. S. Wilks, Ann. Math. Stat.
+    12, 1941). With too few samples k is 0.
     """
     return int(np.sum(bdtr(np.arange(total), total, 1 - share) <= doubt))
 
@@ -45,9 +45,9 @@ def starts_needed(share) -> int:
 
 
 def escape_rate(lives, horizon):
-    """Return the rate at which runs end, per cycle, and its 95 % interval, shape (3,)."""
-    captures = np.sum(lives <= horizon)
-    exposure = np.sum(np.minimum(lives, horizon))
+    """Return the rate at which motions end, from their lives in cycles, and its 95 % interval."""
+    captures = np.sum(lives <= horizon)  # number of motions that ended within `horizon` cycles
+    exposure = np.sum(np.minimum(lives, horizon))  # cycles that all motions lasted together
     # The ends of a confidence interval for a Poisson count are quantiles of a gamma distribution.
     lower = gammaincinv(captures, 0.025) if captures else 0.0
     return np.array([captures, lower, gammaincinv(captures + 1, 0.975)]) / exposure

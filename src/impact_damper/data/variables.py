@@ -66,7 +66,7 @@ def _named_values(text):
     return {name: int(value) for name, value in pairs}
 
 
-# Labels of states without one attractor. `mixed`: the place of the loose mass decides which.
+# Labels of states that lead to no attractor or, if `mixed`, to one that depends on the loose mass.
 BASIN_LABEL = {
     "unresolved": -1,
     "escaped": -2,

@@ -40,7 +40,7 @@ def whole(path):
 
 
 def check_writable(path):
-    """Return the path unchanged. Raise OSError if no file can be written there. None is allowed."""
+    """Return `path`, which may be None. Raise OSError if no file can be written there."""
     if path is not None:
         probe = path.with_name(f"{path.name}.check")
         with whole(probe) as part:
@@ -50,9 +50,9 @@ def check_writable(path):
 
 
 def _reason(folder, error):
-    """Return one line that says why a file could not be written. A trial file shows the reason.
+    """Return one line that says why a file could not be written.
 
-    The messages of the NetCDF library are vague, and wrong if the disk is full.
+    `error` of the NetCDF library is vague. The error from writing a small trial file says more.
     """
     trial = folder / f".trial-{os.getpid()}"
     try:
@@ -67,7 +67,7 @@ def _reason(folder, error):
 
 
 def check_length(path) -> None:
-    """Raise BrokenFileError if a file is not NetCDF-4, or has not the length in its header."""
+    """Raise BrokenFileError if a file is not NetCDF-4, or has not the length its header states."""
     with open(path, "rb") as file:
         start = file.read(LENGTH.stop)
     if not start.startswith(SIGNATURE):
