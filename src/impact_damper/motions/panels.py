@@ -143,7 +143,7 @@ def base_displacement(p, times):
 
 
 def penetration(p, states, wall):
-    """Return the depth of the loose mass in `wall` (-1 or 1), and its rate; 0 if `wall` is 0."""
+    """Return the depth of the loose mass in `wall` (-1 or 1) and the depth's rate; 0 in flight."""
     return np.where(wall, wall * states[..., 2] - p[CLEARANCE], 0.0), wall * states[..., 3]
 
 

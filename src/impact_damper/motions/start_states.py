@@ -32,23 +32,23 @@ PHASES, SAMPLES, MOST_STATES = 6, 256, 5
 # Random starts. SPREAD: size of the largest start divided by the size of the largest free motion.
 # SMALLEST: size of the smallest start divided by the size of the largest start.
 SPREAD, SMALLEST = 3.0, 0.01
-# Placed starts. PLACES: Z2 divided by the clearance. VELOCITIES: Z2' divided by `_crossing_speed`.
-# On free motions Z2' is divided by the largest |Z1'| of free motions if that is larger.
+# Placed starts. PLACES: Z2 divided by the clearance. VELOCITIES: Z2' divided by `_crossing_speed`,
+# or, for starts on free motions, by the largest |Z1'| of free motions if this |Z1'| is larger.
 PLACES, VELOCITIES = (-2 / 3, 0.0, 2 / 3), (-1.0, 0.0, 1.0)
-# Random states of the loose mass for `sweep.stable_orbits`. LOOSE_STATES: number of these states.
-# LOOSE_SPEED: largest |Z1' - Z2'| / larger of `_crossing_speed` and |Z1'| of free motions.
+# LOOSE_STATES: number of random states of the loose mass for `sweep.stable_orbits`. LOOSE_SPEED:
+# its largest speed, divided by `_crossing_speed`, or by the largest free |Z1'| if that is larger.
 LOOSE_STATES, LOOSE_SPEED = 240, 2.0
 # With a softening spring: bound on |Z1| and |Z1'| of random starts, divided by `barrier`.
 WITHIN = 0.7
 NO_STARTS, NO_LOOSE = np.empty((0, 4)), np.empty((0, 2))
 # Ramps. STEP: relative change of the parameter in a step. PERIODS: forcing cycles in a step.
-# RAISED: first force divided by last force. BELOW: a ramp upward to W begins at BELOW times W/2, or
-# BELOW times the lowest fold if that is lower. A ramp downward begins above 2 W and all folds.
+# RAISED: first force divided by last force. A ramp upward to W begins at BELOW times the lowest of
+# W/2 and the folds, a ramp downward at the highest of 2 W and the folds, divided by BELOW.
 STEP, PERIODS, BELOW, RAISED = 0.0125, 20, 0.9, 5.0
 
 
 class Search(NamedTuple):
-    """Start states at T = 0 for n systems, and the sizes of these starts and of free motions.
+    """Start states at T = 0 for n systems (damper, W), and the sizes of starts and free motions.
 
     `random` (n, m, 4) holds m random starts for each system. `placed` and `loose` hold one array
     for each system, which is empty if a radius is given. `loose` has states of the loose mass for
@@ -141,7 +141,7 @@ def gap_states(count, radius, damper, seed):
 
 
 def wide_starts(oscillator, damper, frequency, count, seed, settling) -> tuple:
-    """Return what one system contributes to the fields of a `Search` without a radius."""
+    """Return the entries of one system in the fields of `Search`, in order, without a radius."""
     free = free_motions(oscillator, frequency, settling)
     states, most = random_starts(oscillator, damper, frequency, count, seed, settling)
     if damper is None:
@@ -229,13 +229,13 @@ def _ramp(target, indices, factor, tolerance):
 
 
 def barrier(oscillator):
-    """Return |Z1| beyond which a softening spring pushes outward, and the speed to get there."""
+    """Return |Z1| beyond which a softening spring pushes outward, and |Z1'| at Z1 = 0 needed."""
     stiffness, softening = oscillator.linear_frequency**2, -oscillator.cubic
     return math.sqrt(stiffness / softening), stiffness / math.sqrt(2 * softening)
 
 
 class FreeMotions(NamedTuple):
-    """States (Z1, Z1') of free motions at W T = 0, shape (k, 2), and their largest |Z1|, |Z1'|."""
+    """States (Z1, Z1') of free motions at W T = 0 (k, 2); max |Z1| and max |Z1'| over all times."""
 
     states: np.ndarray
     displacement: float

@@ -21,7 +21,7 @@ STROBE = math.pi / 2
 ITERATIONS, CONVERGED, REGULAR = 10, 1e-9, 1e-12
 # Largest local error of a step in the integration of orbits.
 POLISH_TOLERANCE = 1e-12
-# Two states are the same in `repeats_sooner` if they differ by less than this number.
+# Two states are equal in `repeats_sooner` if they differ by less than this number.
 SAME_STATE = 1e-4
 
 
@@ -33,7 +33,7 @@ def strobe_time(p):
 
 @inlined
 def one_period(p, y, tangents, side, tolerance, work):
-    """Integrate a state in place from one strobe to the next; return the results of `advance`."""
+    """Integrate y from one strobe to the next, in place; return what `advance` returns."""
     t = strobe_time(p)
     return advance(p, y, tangents, side, t, t + 2.0 * math.pi / p[FREQUENCY], tolerance, work)
 
@@ -78,7 +78,7 @@ def flow(p, state, tangents, begin, periods, half, tolerance):
 
 @inlined
 def period_map(p, y, periods, tolerance):
-    """Return the state z after y and `periods` cycles, the matrix dz/dy, and number of contacts."""
+    """Return the state z, `periods` cycles after the state y; dz/dy; and the number of contacts."""
     half = np.bool_(False)  # for the literal False numba would compile `flow` again
     state, tangents, matrix = y.copy(), np.empty((4, 4)), np.empty((4, 4))
     for i in range(16):

@@ -2,8 +2,8 @@
 
 At each value of the parameter Newton's method also finds stable orbits to which hardly any random
 start leads. Settled motions are followed to the next values, upward and downward. Other motions are
-run from their last states at the next values. Two such motions at neighbouring values belong to one
-branch if they have the same outcome, the same period and similar sizes.
+run from their last states at the next values. Two unsettled motions at neighbouring values belong
+to one branch if their outcomes and periods (0 if none) are equal and their sizes are similar.
 """
 
 import math
@@ -22,9 +22,9 @@ from impact_damper.motions.records import MOTION, measured, tabulate
 from impact_damper.motions.steady import run_chunks
 from impact_damper.motions.strobe_map import STROBE, distance, flow, polish, strobe_time
 
-# Two records show one motion if max |Z1| differs by less than the fraction SAME, near rest by less
-# than ROUNDING, or for unsettled motions if `size_ratio` is below SIMILAR. A motion is symmetric if
-# its asymmetry is below SAME.
+# Two records show one motion if max |Z1| differs by less than SAME max |Z1| or less than ROUNDING.
+# Two unsettled records also show one motion if `size_ratio` is below SIMILAR. A motion is symmetric
+# if its asymmetry is below SAME.
 SAME, ROUNDING, SIMILAR = 1e-6, 1e-11, 1.5
 # Outcomes with infinite or zero max |Z1|. All motions with one such outcome count as one motion.
 ALIKE = tuple(flag("outcome", name) for name in ("diverged", "escaped", "at_rest"))
@@ -33,8 +33,8 @@ ALIKE = tuple(flag("outcome", name) for name in ("diverged", "escaped", "at_rest
 # SAME_ORBIT: two orbits are equal if their states differ by less than this number.
 LONGEST, REACH, SAME_ORBIT = 5, 1.0, 1e-6
 # Events at the end of a branch. At a bifurcation the modulus of the multiplier is above CRITICAL. A
-# multiplier is complex if its imaginary part is above COMPLEX. At a loss of symmetry max |Z1| of
-# the symmetric and the asymmetric motion differ by less than CLOSE.
+# multiplier is complex if its imaginary part is above COMPLEX. At a loss of symmetry max |Z1|
+# (dimensionless) changes by less than CLOSE.
 CRITICAL, COMPLEX, CLOSE = 0.98, 1e-3, 0.05
 
 
@@ -214,7 +214,7 @@ class Catalogue:
         return None
 
     def add(self, record, origin):
-        """Add a new motion, or update a known motion if max |Z1| is larger; return the index."""
+        """Add a new motion, or update a known one that has a smaller max |Z1|; return the index."""
         i = self.find(record)
         if i is None:
             i = len(self.records)
@@ -253,7 +253,7 @@ def match_unsettled(first, second) -> list:
 def size_ratio(one, other):
     """Return the larger of two motions' max |Z1| divided by the smaller.
 
-    Without a period max |Z1| may be small by chance. Then a smaller ratio of `reach` is returned.
+    Without a period max |Z1| may be small by chance. So the ratio of `reach` is used if smaller.
     """
     if one["maximum_displacement"] == other["maximum_displacement"]:
         return 1.0
@@ -287,8 +287,8 @@ def stable_orbits(p, motions, loose, tolerance, stop) -> np.ndarray:
     """Return states at the strobe, shape (k, 4), on stable orbits with contacts.
 
     On most orbits the primary mass moves nearly as in a known motion. So a start of Newton's method
-    takes Z1, Z1' from a known motion, a row of `motions` (m, 2). It takes Z2, Z1' - Z2' from a row
-    of `loose` (n, 2). Each row of `loose` is used once, the rows of `motions` in turn.
+    takes Z1, Z1' from a known motion, a row of `motions` (m, 2). It takes Z2 and the loose
+    mass's velocity, Z1' - Z2', from a row of `loose` (n, 2). Each row of `loose` is used once.
     """
     found, none = [], np.empty((0, 4))
     if len(motions) == 0 or len(loose) == 0:

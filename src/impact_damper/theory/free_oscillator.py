@@ -54,7 +54,7 @@ def free_solutions(oscillator, frequency) -> FreeSolutions:
 
 
 def main_solutions(oscillator, frequency) -> FreeSolutions:
-    """Return the solutions. With a softening spring, leave out amplitudes above the peak's."""
+    """Return the free solutions, with a softening spring only up to the amplitude of the peak."""
     free = free_solutions(oscillator, frequency)
     if oscillator.hardening >= 0:
         return free
@@ -89,8 +89,8 @@ def resonance(oscillator, frequency) -> Resonance:
 def maximum_response(oscillator) -> Point:
     """Return the maximum of the free response curve over W.
 
-    The amplitude is a at the roots W of (1 - U^2/a^2) W^4 + (h^2 - 2 m - 2 F U/a^2) W^2 + m^2
-    - F^2/a^2 = 0 with m = wl^2 + g a^2. At the maximum both roots W^2 are equal.
+    The curve has the amplitude a at each W with (1 - U^2/a^2) W^4 + (h^2 - 2 m - 2 F U/a^2) W^2
+    + m^2 - F^2/a^2 = 0 and m = wl^2 + g a^2. At the maximum both roots W^2 are equal.
     """
     damping, stiffness = oscillator.damping**2, oscillator.linear_frequency**2
     force, unbalance, hardening = oscillator.force, oscillator.unbalance, oscillator.hardening

@@ -75,10 +75,10 @@ def harmonic_balance(system, damper, frequencies):
         along `free_solution`, `solution` or `root` stands for a branch from one fold to the next.
         Where a branch does not exist, entries are NaN or flagged absent.
 
-        The suppression band is the range of frequencies around the peak Wp of the free response in
-        which (7) has exactly one stable solution, and this solution is smaller than the free
-        resonance branch. Beyond the fold of the free resonance branch there is no band. The
-        variables of the band are its edges (NaN if not found), its width, and amplitudes at Wp.
+        By harmonic balance the suppression band is the range of frequencies around the peak Wp of
+        the free response in which (7) has exactly one stable solution, smaller than the free
+        resonance. Beyond the fold of the free resonance branch there is no band. The variables of
+        the band are its edges (NaN if not found), its width, and amplitudes at Wp.
 
     Raises
     ------
@@ -222,7 +222,7 @@ def _band(oscillator, damper):
 
 
 def _look(oscillator, damper, frequency):
-    """Return `band_status` as a word at one frequency, and |a| of all stable solutions, sorted."""
+    """Return the name of the `band_status` at one frequency, and |a| of all stable solutions."""
     stable = np.sort(np.abs(_stable_amplitudes(oscillator, damper, frequency)))
     free = resonance(oscillator, frequency)
     if len(stable) != 1:
@@ -259,7 +259,7 @@ ZERO_AMPLITUDE = 1e-6
 
 
 def _smallest(oscillator, damper, frequency):
-    """Return the stable amplitude of (7) closest to 0 (or NaN), and the status as a word."""
+    """Return the stable amplitude of (7) closest to 0, or NaN; the name of `analytical_status`."""
     if damper.restitution != 1:
         return np.nan, "inelastic"
     if beyond_closed_forms(oscillator, damper):

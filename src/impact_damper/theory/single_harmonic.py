@@ -38,7 +38,7 @@ def contact_amplitude(relative_amplitude, clearance) -> tuple:
 
 
 def rigid_solutions(oscillator, damper, frequency) -> Solutions:
-    """Return the solutions of (13), which have b = d0. They are sorted by the roots of (14).
+    """Return the solutions of (13), by ascending phase t1. They have b = d0.
 
     Solutions with a > d0 need walls that pull; (7) has no such solution. For a forcing amplitude f
     other than 1, the equations hold with d0/f, k3 f^2 and a/f in place of d0, k3 and a.

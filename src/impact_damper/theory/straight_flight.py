@@ -23,10 +23,10 @@ APART = 1e-20j
 class Flight(NamedTuple):
     """The quiet (small) motion near the optimum clearance.
 
-    x = W^2 Z1/f is driven by the forcing and by impacts with the impulse 4 q/pi (derivation in
-    docs/explanation/straight_flight.md). Phases phi count from the minimum that x would have
-    without impacts. An impact takes place at phi = s, the lag. An elastic contact lasts the time t,
-    and `contact` is W t/pi. `damping` is h/W. `stiffness` is wl/W, below 1.
+    x = W^2 Z1/f is driven by the forcing and by impacts. `impulse` q is pi/4 times the impulse of
+    an impact on x (docs/explanation/straight_flight.md). Phases phi count from the minimum that x
+    would have without impacts. An impact takes place at phi = s, the lag. An elastic contact lasts
+    the time t, and `contact` is W t/pi. `damping` is h/W. `stiffness` is wl/W, below 1.
     """
 
     mass_ratio: float
@@ -47,7 +47,7 @@ class Flight(NamedTuple):
 
     @property
     def loss(self):
-        """sin(s)/q for the lag s and the impulse q of an impact at rigid walls."""
+        """sin(s)/q of an impact at rigid walls, with the lag s and `impulse` q."""
         impact = (1 + 1 / self.mass_ratio) * (1 - self.restitution) / (1 + self.restitution)
         damping = self._difference(lambda root: root * np.tanh(np.pi * root / 2))
         return 2 / np.pi * (impact - damping) / self.forced
@@ -59,23 +59,23 @@ class Flight(NamedTuple):
 
     @property
     def reach(self):
-        """How much smaller rm W^2 d0/f is because contacts take time, divided by (1 + rm) q."""
+        """Decrease of rm W^2 d0/f because contacts take time, divided by (1 + rm) q."""
         return 4 / np.pi * self.contact_phase * self.restitution / (1 + self.restitution) ** 2
 
     @property
     def setback(self):
-        """How much smaller the lag s is because contacts take time."""
+        """Decrease of the lag s because contacts take time."""
         asymmetry = (1 - self.restitution) / (1 + self.restitution)
         return self.contact_phase * asymmetry - 2 * damping_ratio(self.restitution) * self.contact
 
     @property
     def largest_impulse(self):
-        """Largest impulse q for which the formulas of this class hold."""
+        """Largest `impulse` q for which the formulas of this class hold."""
         bound = np.pi / 2 * self.forced
         return min(bound, 1 / self.loss) if self.loss > 0 else bound
 
     def lag(self, impulse):
-        """Return the lag s of an impact with an impulse q."""
+        """Return the lag s of an impact with `impulse` q."""
         return np.arcsin(np.minimum(self.loss * impulse, 1.0)) - self.setback
 
     def _difference(self, function):
@@ -100,12 +100,12 @@ class Flight(NamedTuple):
         return tuple(impulse * push - self.forced * each for push, each in pairs)
 
     def ratio(self, impulse):
-        """Return the clearance, as rm W^2 d0/f, at which impacts have the impulse q."""
+        """Return the clearance, as rm W^2 d0/f, at which impacts have `impulse` q."""
         tip = self.motion(self.lag(impulse), impulse)[0]
         return impulse + self.mass_ratio * tip - (1 + self.mass_ratio) * self.reach * impulse
 
     def largest_displacement(self, impulse):
-        """Return max |x| for an impulse q: at the impact, or at a turning point between impacts."""
+        """Return max |x| for `impulse` q: at the impact, or at a turning point between impacts."""
         lag = self.lag(impulse)
         turn = np.arcsin(np.minimum(2 * impulse / (np.pi * self.forced), 1.0))
         sizes = [self.motion(lag, impulse)[0] - (1 - 2 / np.pi) * self.reach * impulse]
