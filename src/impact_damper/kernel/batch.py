@@ -2,8 +2,8 @@
 
 A lane is a place in the vectors with which the processor computes. All trajectories of one step
 must be in flight, or all must be in contact. Therefore a pool holds more trajectories than there
-are lanes, and each step takes its trajectories from the longest of several queues. The result of a
-trajectory does not depend on the other trajectories.
+are lanes, and has a queue for each kind of step: flight or contact, with a tangent or without. Each
+step takes trajectories from the longest queue. No trajectory changes the result of another one.
 """
 
 from typing import NamedTuple
@@ -27,7 +27,7 @@ flight_step, contact_step = by_address(_MANY.flight_step), by_address(_MANY.cont
 flight_tangents = by_address(_MANY.flight_tangents)
 contact_tangents = by_address(_MANY.contact_tangents)
 SIZE, TANGENT_SIZE = _MANY.SIZE, _MANY.TANGENT_SIZE
-# Indices of rows (`instances.rows`). `Pool.numbers[m, k]` is row k of trajectory m, k < LENGTH.
+# Indices of rows (`instances.rows`). `Pool.numbers[m, k]`: number in row k, of trajectory m.
 STATE, SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
     row // LANES
     for row in (_MANY.Y0, _MANY.SIDE, _MANY.TIME, _MANY.LONGEST, _MANY.TOLERANCE, _MANY.LENGTH)
@@ -35,16 +35,16 @@ STATE, SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
 
 
 class Pool(NamedTuple):
-    """A pool of m trajectories. Each trajectory has its own end time.
+    """A pool of n trajectories. Each trajectory has its own end time.
 
-    numbers: Parameters, state, side, time, longest step and tolerance; shape (m, LENGTH).
-    ends: End times; shape (m,).
-    farthest: |Z1| beyond which a trajectory escapes (`equation.no_return`); shape (m,).
-    tangents: A solution of the variational equations for each trajectory; shape (m, 4).
-    queues: Indices of the waiting trajectories, a row for each kind of step; shape (4, m).
+    numbers: Parameters, state, ..., tolerance, in the rows before LENGTH; shape (n, LENGTH).
+    ends: End times; shape (n,).
+    farthest: |Z1| beyond which a trajectory escapes (`equation.no_return`); shape (n,).
+    tangents: A solution of the variational equations for each trajectory; shape (n, 4).
+    queues: Indices of the waiting trajectories, a row for each kind of step; shape (4, n).
     waiting: Number of trajectories in each queue; shape (4,).
-    contacts: Number of contacts begun since the last call of `send`; shape (m,).
-    largest: Largest |Z1| since the last call of `enter`, NaN if not needed; shape (m,).
+    contacts: Number of contacts begun since the last call of `send`; shape (n,).
+    largest: Largest |Z1| since the last call of `enter`, NaN if not needed; shape (n,).
     held: Index of the trajectory whose parameters a lane holds, -1 if none; shape (LANES,).
     a, d: Arrays of a step, for trajectories (a) and their tangents (d): `instances.rows`.
     """
@@ -227,9 +227,9 @@ def advance_some(pool, chosen, arrived):
 def advance(parameters, states, sides, starts, ends, tolerance, contacts, largest=None):
     """Integrate trajectories, each from its start time to its end time.
 
-    The final states replace `states` (m, 4), and the walls in contact at the end replace `sides`
-    (m,). `contacts` (m,) receives the number of contacts that began in each trajectory. `largest`
-    (m,) receives the largest |Z1| of each trajectory, or infinity after an escape.
+    The final states replace `states` (n, 4). The walls in contact at the end (-1 or 1, 0 in flight)
+    replace `sides` (n,). `contacts` (n,) receives the number of contacts that began. `largest` (n,)
+    receives the largest |Z1| of each trajectory, or infinity after an escape.
     """
     size = min(len(states), RESIDENT)
     pool = make_pool(size)

@@ -64,7 +64,7 @@ def number(x):
 
 
 def template(function, caller):
-    """Return a wrapper with which kernels can call a template. `caller` only calls the wrapper."""
+    """Wrap a template for kernels. `caller` is for `by_address`, and only calls the wrapper."""
 
     def generate(context, builder, signature, arguments):
         builder.call(_compiled(builder.module, function, arguments), arguments)
@@ -225,7 +225,7 @@ class Body(ast.NodeVisitor):
         self.builder.position_at_end(after)
 
     def visit_For(self, node):
-        """Write the loop over `i` as a loop in LLVM. Unroll other loops, and loops of one round."""
+        """Write a loop `for i` of two or more rounds as a loop in LLVM. Unroll every other loop."""
         count, counter = self.visit(node.iter.args[0]), node.target.id
         if counter == "i" and count > 1:
             with cgutils.for_range(self.builder, ir.Constant(INTEGER, count)) as loop:

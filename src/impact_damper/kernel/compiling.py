@@ -88,7 +88,7 @@ inlined = partial(kernel, inline="always")
 
 @kernel
 def aligned(count):
-    """Return an array of `count` zeros that begins with a cache line, so that vectors load fast."""
+    """Return an array of zeros. It begins where a cache line begins, so that vectors load fast."""
     numbers = np.zeros(count + CACHE_LINE)
     before = -numbers.ctypes.data // 8 % CACHE_LINE
     return numbers[before : before + count]

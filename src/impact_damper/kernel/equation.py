@@ -3,8 +3,9 @@
     Z1'' = (F + U W^2) cos(W T) - h Z1' - omega_l^2 Z1 - k3 Z1^3
 
 This is equation (3) of the paper with three further parameters: k3, F and U. Some functions yield
-lines of Python code, which `instances` joins into kernels. docs/explanation/series.md explains how
-each Taylor coefficient follows from earlier ones, and the names in the lines.
+lines of Python code, which `instances` joins into kernels: docs/explanation/series.md. In the lines
+x0, x1, ... are Taylor coefficients of Z1, q0, q1, ... of the depth in a wall, and g0, g1, ... of
+Z1'' without the wall's force. D is the coefficient of the walls' dashpot.
 """
 
 import math
@@ -39,10 +40,8 @@ def forcing_amplitude(p, lane=0, lanes=1):
 
 @partial(kernel_only, fastmath=False)
 def external_force(p, t):
-    """Return the force of the excitation at the time t, divided by the primary mass.
-
-    `fastmath=False` keeps LLVM from fusing this product with a sum in the caller.
-    """
+    """Return the force of the excitation at the time t, divided by the primary mass."""
+    # `fastmath=False` keeps LLVM from fusing amplitude * cosine with a sum in the caller.
     return forcing_amplitude(p) * math.cos(p[FREQUENCY] * t)
 
 
@@ -123,8 +122,8 @@ def motion(order, phase, constants, across):
     = (F + U W^2) cos(W T), `sine` = (F + U W^2) sin(W T), and the variables of `beginning`. In
     contact the lines also read q0, q1, `r1` and `mobility` = 1 + 1/rm. If `across` is true, they
     also read `draw`, `base_cosine` and `base_sine` (`templates.across`). `constants(k)` returns
-    lines that set h{k} = h/k and d{k} = D/k (h and D if k = 0), and e{k}, which is the coefficient
-    of order k of the forcing, divided by `cosine` or `sine`.
+    lines that set h{k} = h/k and d{k} = D/k (h and D if k = 0), and e{k}. Coefficient k of the
+    forcing is e{k} `cosine` if k is even, and e{k} `sine` if k is odd.
     """
     for k in range(order - 1):
         yield from constants(k)
@@ -173,10 +172,10 @@ def squares(count):
 
 
 def _lower_squares(n):
-    """Yield lines that update the coefficients s0, s1, ... of k3 l^2.
+    """Yield lines that update the coefficients s0, s1, ... of k3 l^2 after a new term of l.
 
-    The polynomial l receives a new term x[n]. The lines add 2 k3 x[n] x[j] to s[n+j] for each
-    j < n, and set s[2n] = k3 x[n]^2. y{n} is 2 k3 x[n]. P{j} is the pair s[j], s[j+1].
+    l = x0 + x1 t + ... + x{n} t^n, where x{n} is new. The lines add 2 k3 x{n} x{j} to s{n+j} for
+    each j < n, and set s{2n} = k3 x{n}^2.
     """
     yield f"y{n} = double * x{n}"
     for j in range(n - n % 2, 2 * n, 2):
@@ -188,7 +187,7 @@ def _lower_squares(n):
 
 
 def _without_damping(k, drive):
-    """Yield lines that compute c[k], which is g[k] without damping. `drive` is the forcing."""
+    """Yield lines for c{k}, which is g{k} without damping. `drive` is the forcing's coefficient."""
     n, odd = k // 2, k % 2
     last = k - n - 1
     if odd and last % 2 and last > 1:
@@ -213,7 +212,7 @@ def _without_damping(k, drive):
 
 
 def _accelerations(k, phase, loose):
-    """Yield lines that compute g[k] and x[k+2] from c[k], and in contact also q[k+2]."""
+    """Yield lines that compute g{k} and x{k+2} from c{k}, and in contact q{k+2} from {loose}{k}."""
     a, b = (f"a{k - 1}", f"b{k - 1}") if k > 0 else ("x1", "q1")
     factor = 1 / ((k + 1) * (k + 2))
     yield f"g{k} = c{k} - h{k} * {a}"

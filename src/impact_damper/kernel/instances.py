@@ -38,7 +38,7 @@ CONTACT_ORDER = 23
 # STATE           the state Z1, Z1', Z2, Z2' at the beginning of the step, afterwards at its end
 # STEP            SIDE, TIME, LONGEST and TOLERANCE are arguments; SIDE and LENGTH are results
 # SCRATCH, FREE   intermediate results
-# SERIES          Taylor coefficients; E, H and D are the same in all steps of a trajectory
+# SERIES          Taylor coefficients; E, H and D are constant unless the loose mass sticks
 #   X: Z1   Q: depth in a wall, Z2 - SIDE d0   G: Z1'' without the wall's force   H: DAMPING/k
 #   U: slope of the spring's nonlinear force   E: forcing divided by COSINE or SINE   D: DASHPOT/k
 # A tangent is a solution of the variational equations. Groups of a tangent's rows, in this order:
@@ -53,7 +53,7 @@ SCRATCH = (
     "DRAW BASE_COSINE BASE_SINE ACROSS MOST SWAYS SWAY SWAY_SLOPE SWAY_CURVE SWAY_JERK JERK_BOUND "
     "APART PUSH ROUGH SLIDE BEND STICKS STUCK HELD_Z2 LIMIT TURN"
 ).split()
-# Parameters that `friction.hold` changes if the loose mass sticks. FREE rows keep their old values.
+# Parameters that `friction.hold` changes if the loose mass sticks. FREE rows store the old values.
 HELD = ["DAMPING", "STIFFNESS", *map(str.upper, NONLINEAR), "CONTACT_STIFFNESS", "DASHPOT"]
 FREE = [f"FREE_{name}" for name in HELD]
 SINGLE = list(packed.NAMES) + STATE + STEP + SCRATCH + FREE
@@ -137,7 +137,7 @@ def rows(flight_order, contact_order):
 class Writer:
     """Writes the source code of kernels that compute Taylor series.
 
-    With one lane the trajectory has up to four tangents. With more lanes each has one tangent.
+    There is room for four tangents with one lane, and for one tangent per lane with more lanes.
     """
 
     def __init__(self, lanes, flight_order, contact_order):
@@ -147,18 +147,18 @@ class Writer:
         self.rows = rows(flight_order, contact_order)
 
     def at(self, row, k=0):
-        """Return the code for a trajectory's number in a row, k rows after the row named `row`."""
+        """Return code such as "a[48 + i]" for a trajectory's number, k rows after the row `row`."""
         index = (self.rows[row] + k) * self.lanes
         return f"a[{index} + i]" if self.lanes > 1 else f"a[{index}]"
 
     def at_tangent(self, row, k=0):
-        """Return the code for a tangent's number, k rows after the row named `row` ("": row 0)."""
+        """Return code such as "d[48 + i]" for a tangent's number, k rows after `row` ("": 0)."""
         return f"d[{(self.rows.get(row, 0) + k) * self.tangents} + i]"
 
     def function(self, name, lines, tangent=False, first=(), side_by_side=4):
         """Return the source code of a kernel that executes `lines` for each lane.
 
-        The kernel begins with the lines `first`, which work on vectors of `side_by_side` numbers.
+        With one lane lines `first` may come before, and use `side_by_side` coefficients at once.
         """
         arguments, lanes = ("a, d", self.tangents) if tangent else ("a", self.lanes)
         text, calls = "", ""
@@ -175,7 +175,7 @@ class Writer:
         return "XQ" if phase == "contact" else "X"
 
     def constant_series(self):
-        """Return a kernel for the series that are the same in all steps of a trajectory."""
+        """Return a kernel for the constant series E, H and D (see SERIES)."""
         lines = (self._computed(k, "EHD") for k in range(max(self.orders.values()) - 1))
         return self.function("constant_series", self._stored(chain.from_iterable(lines), "EHD"))
 
@@ -427,7 +427,7 @@ def _constants(*numbers):
 
 
 def _paired(c, result):
-    """Return a line that computes c[0] + c[1] u + ... + c[7] u^7 (Estrin's scheme, v = u^2)."""
+    """Return a line for `result` = c[0] + ... + c[7] u^7, which reads u and v = u^2 (Estrin)."""
     low, high = (f"({a} + {b} * u) + ({c} + {d} * u) * v" for a, b, c, d in (c[:4], c[4:]))
     return f"{result} = ({low}) + ({high}) * (v * v)"
 

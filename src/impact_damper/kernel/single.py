@@ -99,7 +99,7 @@ def extremum(c, order, length, start):
 
 @kernel_only
 def turning_time(c, order, begin, end, first, last):
-    """Return when a polynomial's slope is 0. It is `first` at `begin`, and `last` at `end`."""
+    """Return when a polynomial's slope is 0. The slope is `first` at `begin`, `last` at `end`."""
     t = begin + (end - begin) * first / (first - last)
     for _ in range(4):
         _, slope = polynomial(c, order, t)
@@ -114,7 +114,7 @@ def turning_time(c, order, begin, end, first, last):
 
 @kernel_only
 def write_trajectory(p, y, side, tolerance, a):
-    """Write a trajectory into a workspace for Taylor series of any order."""
+    """Write a trajectory into a workspace. The constant series E, H and D are not computed."""
     for i in range(packed.COUNT):
         a[PARAMETERS + i] = p[i]
     for i in range(4):
@@ -126,7 +126,7 @@ def write_trajectory(p, y, side, tolerance, a):
 
 @kernel_only
 def load(p, y, side, tolerance, a):
-    """Write a trajectory into a workspace. Compute constant series again if W, h or D is new."""
+    """Write a trajectory into a workspace. Compute E, H and D if W, h or the dashpot is new."""
     kept = True
     for i in (FREQUENCY, DAMPING, DASHPOT):
         kept = kept and a[PARAMETERS + i] == p[i]

@@ -16,7 +16,7 @@ from numba.core import cgutils
 from impact_damper.kernel.branches import OPERATORS, Body
 from impact_damper.kernel.compiling import CONTRACT
 
-# Number of lanes in a vector. A processor with AVX-512 has twice as many registers as others.
+# Number of lanes in a vector. A register holds 8 doubles with AVX-512, and at most 4 without.
 WIDTH = 8 if get_host_cpu_features().get("avx512f") else 4
 FLOAT = ir.DoubleType()
 PAIR = ir.VectorType(FLOAT, 2)

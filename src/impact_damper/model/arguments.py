@@ -29,7 +29,7 @@ PHASES = ("state_phase", "orbit_phase")
 
 
 class Model(NamedTuple):
-    """A dimensionless oscillator and its damper. `machine` is the `Machine` that was given."""
+    """A dimensionless oscillator and its damper; `machine` is None if an `Oscillator` was given."""
 
     oscillator: Oscillator
     damper: Damper | None
@@ -133,7 +133,7 @@ def read_span(scales, name, span, kind, **bounds) -> tuple[float, float]:
 
 
 def read_radius(scales, radius, whole_gap=False) -> float | None:
-    """Return the dimensionless radius of the ball in which random starts lie; None stays None."""
+    """Return the dimensionless radius of random starts. `whole_gap` forbids None, and allows 0."""
     if radius is None:
         if whole_gap:
             raise ValueError("radius = None: must be given with whole_gap; 0 for a machine at rest")
@@ -166,7 +166,7 @@ def read_state(model, state) -> np.ndarray:
     """Return the argument `state` of a public function as Z1, Z1', Z2, Z2', shape (4,).
 
     Without a damper `state` may be Z1 and Z1' only; then Z2 = Z1 and Z2' = Z1'. Warn the user if
-    the loose mass is deeper in a wall than the clearance.
+    the modulus of Z2 exceeds 2 d0.
     """
     scales, damper = model.scales, model.damper
     if hasattr(state, "coords"):
@@ -208,7 +208,7 @@ def carried_phase(state):
 
 
 def read_start(model, state, start) -> float:
-    """Return the time T at which a motion starts, from the argument `start` of a function.
+    """Return the time T at which a motion begins, from the argument `start`, a time or None.
 
     If `start` is None, T is the phase stored with the state (`carried_phase`) divided by W, or 0 if
     no phase is stored. A `start` whose phase W T differs from the stored phase is an error.

@@ -36,7 +36,7 @@ FURTHER_RANGE = {"least": 0, "most": 10**7}
 # Largest number of runs in one call of a function. Memory must hold the results of all runs.
 MOST_RUNS = 10**6
 RUNS_RANGE = {"least": 1, "most": MOST_RUNS}
-# Cycles in a run. LIFETIME_RANGE is for runs that measure how long a motion stays chaotic.
+# Cycles in a run (argument `periods`). LIFETIME_RANGE: in runs that measure how long chaos lasts.
 PERIODS_RANGE = {"least": 1, "most": 10**6}
 LIFETIME_RANGE = {"least": 100, "most": 10**7}
 SEED_RANGE = {"least": 0, "most": 2**63 - 1}

@@ -15,7 +15,7 @@ from impact_damper.model.units import QUANTITIES, check_si
 COLUMN = re.compile(r"\s*([a-z]+)[\s_\[(]+([^\s\])]+)[\])]?\s*")
 FEWEST = 20
 SPRING = ("linear_stiffness", "damping", "cubic_stiffness")
-# For `from_response`. FOLD keeps residuals finite at folds. PASSES: number of fits in a row.
+# `from_response` divides R by at least FOLD. It makes PASSES fits, each from the last result.
 FOLD, PASSES = 0.1, 6
 
 
@@ -81,8 +81,8 @@ def from_response(cls, data, *, force) -> Identified:
     """Find the machine whose response to a known force fits a measured response best.
 
     The response obeys the balance of the first harmonic, (k - m w^2 + 3/4 k3 a^2)^2 a^2 + (c w a)^2
-    = F^2 (Nayfeh and Mook, Nonlinear Oscillations, section 4.1, 1979). R = ln(left side/right
-    side)/2 is 0 if it holds. The residual R/(dR/d ln a) is nearly the relative error of a. Higher
+    = F^2 (Nayfeh and Mook, Nonlinear Oscillations, section 4.1, 1979). In balance R = ln(left
+    side/right side)/2 is 0. The residual R/(dR/d ln a) is nearly the relative error of a. Higher
     harmonics are neglected. Where 3/4 k3 a^2 exceeds k/10, they change the fitted stiffness by
     about 1 %, and near a jump the fitted damping by 10 %.
 
@@ -157,7 +157,7 @@ def _fit(residuals, guess, scale):
 
 
 def _free(time, parameters):
-    """Return the decay of a 1 kg mass, shape (times, columns), for each column of parameters."""
+    """Return the unforced decay of 1 kg for each column of parameters, shape (times, columns)."""
     import numpy as np
     from scipy.integrate import solve_ivp
 

@@ -24,7 +24,7 @@ MOST_DAMPING = 0.99
 
 
 class Derived(float):
-    """A field that a machine computed from other fields. A copy computes this field again."""
+    """A field that a machine computed from other fields. A changed copy computes it again."""
 
 
 @bounds.names_arguments
@@ -324,8 +324,8 @@ class Machine:
             Full play of the loose mass from wall to wall, m.
         clearances : sequence of 2 floats, str or pint.Quantity
             In place of `gap`, the distances (m) from the loose mass at rest to both walls. Motions
-            depend on the sum only, because no spring holds the loose mass between the walls. States
-            are relative to mid-gap, where this loose mass is at half the difference of the two.
+            depend on the sum only, because no spring holds the loose mass between the walls. In a
+            state Z2 is 0 at mid-gap; at rest Z2 is half the difference of the distances, + or -.
         mount : dict, optional
             Arguments of `mounting`, such as {"inclination": "90 deg"}.
         contact

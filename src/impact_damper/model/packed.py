@@ -65,7 +65,7 @@ def pack(oscillator, damper, frequency) -> np.ndarray:
 
 
 def cubic_spring(p) -> tuple:
-    """Return omega_l^2 and k3. Raise ValueError if the spring has other nonlinear terms."""
+    """Return omega_l^2 and k3. Any nonlinear term besides k3 (none exists yet) is an error."""
     for name in NONLINEAR:
         value = p[NAMES.index(name.upper())]
         if value and name != "cubic":

@@ -191,7 +191,7 @@ class Damper:
 
     @property
     def contact_damping(self) -> float:
-        """Damping ratio zeta_c of the contact; for "zero_penetration" by equation (25)."""
+        """zeta_c = z/sqrt(1 + rm); z: `exit_rules`, for "zero_penetration" by equation (25)."""
         return damping_ratio(self.restitution, self.exit_rule) / math.sqrt(1 + self.mass_ratio)
 
     @property
@@ -201,18 +201,18 @@ class Damper:
 
     @property
     def dashpot(self) -> float:
-        """Dashpot coefficient 2 zeta_c sqrt(r1 rm) of equation (22)."""
+        """Coefficient 2 zeta_c sqrt(r1 rm) of a wall's dashpot, equation (22) of the paper."""
         return 2 * self.contact_damping * math.sqrt(self.contact_stiffness * self.mass_ratio)
 
 
 def beyond_closed_forms(oscillator, damper) -> list:
-    """Return nonzero parameters to which closed forms do not apply, as pairs (object, name)."""
+    """Return which of gravity, friction and base are not 0, as pairs (dataclass, name)."""
     terms = (damper, "gravity"), (damper, "friction"), (oscillator, "base")
     return [(part, name) for part, name in terms if getattr(part, name)]
 
 
 def check_closed_form(oscillator, damper):
-    """Raise an error if closed forms do not apply, or if `damper` is no Damper."""
+    """Raise an error if gravity, friction or base is not 0, or if `damper` is no Damper."""
     check_damper(damper)
     why = "must be 0 in closed forms and harmonic balance with a damper; simulate it instead"
     for part, name in beyond_closed_forms(oscillator, damper):

@@ -16,12 +16,12 @@ class Settling:
     tolerance : float
         Largest local error in a step of the integrator, dimensionless.
     patience : int
-        Number of forcing cycles after which a run is stopped if the motion is strongly chaotic, or
-        if the loose mass hardly moves and has touched no wall during these cycles.
+        Forcing cycles after which a run is stopped if it is chaotic with a Lyapunov exponent above
+        0.05 (per unit of T), or if the loose mass touched no wall in these cycles and hardly moves.
     limit : int
-        Number of forcing cycles after which every run is stopped. The outcome is then chaotic if
+        Number of forcing cycles after which every run is judged. The outcome is then chaotic if
         chaos is certain. It is drifting if the primary mass is on an orbit and the loose mass has
-        touched no wall for `patience` cycles. Otherwise the motion is undecided.
+        touched no wall for `patience` cycles. Otherwise the motion is undecided, and runs on.
     watched : int
         Number of forcing cycles, after the run, over which an unsettled motion is measured.
     further : int

@@ -35,7 +35,7 @@ def with_unit(value, unit, digits=6) -> str:
 
 
 def plain(value) -> str:
-    """Return a number as exact text. It is rounded to six digits only if this changes nothing."""
+    """Return a number as exact text: with six digits if these suffice, otherwise with all."""
     value = float(value)
     if not math.isfinite(value):
         return repr(value)

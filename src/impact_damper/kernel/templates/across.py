@@ -11,7 +11,7 @@ SMALL = 0.5
 
 
 def is_outside(a, i):
-    """Return whether a flight begins at |Z2| > d0, behind a wall's surface, without sticking."""
+    """Return whether a loose mass that does not stick begins a flight at |Z2| > d0 (OUTSIDE)."""
     return abs(a[Y2 + i]) > a[CLEARANCE + i] and a[STUCK + i] == 0.0
 
 
@@ -85,12 +85,12 @@ def penetration_values(a):
 
 
 def find_return(a):
-    """Find the first contact in [0, T] in lanes whose loose mass begins behind a wall's surface.
+    """Find the first contact in [0, T] in lanes whose flight begins at |Z2| > d0 (`is_outside`).
 
-    Let q be the depth behind the surface. If f = q + LAG q' rises to zero while q > 0, the wall
-    pushes again: MODE becomes MET_DEEP. If a contact begins at a surface, MODE becomes MET. WALL,
-    T, END_Z1 and END_Z1_SLOPE are set as in `find_contact`. No search is needed if f certainly
-    falls (-q' exceeds LAG times a bound on |q''|) and the other wall is out of reach.
+    Let q be |Z2| - d0 at this wall. If f = q + LAG q' rises to zero while q > 0, the wall pushes
+    again: MODE becomes MET_DEEP. If a contact begins at |Z2| = d0, at either wall, MODE becomes
+    MET. WALL, T, END_Z1 and END_Z1_SLOPE are set as in `find_contact`. No search is needed if f
+    falls (-q' exceeds LAG times a bound on |q''|) and the opposite wall is out of reach.
     """
     flight_bound(a)
     flight_jerk(a)

@@ -34,9 +34,9 @@ def distance_ahead(a, i, t):
 def expect_contact(a):
     """In lanes in which a contact is expected, move T from LENGTH to the contact's expected time.
 
-    A contact is expected if three terms of the series of Z2 give a place behind a wall at LENGTH.
-    The expected time follows from half of the terms of Z1. So the processor need not wait for the
-    last coefficients.
+    A contact is expected if |Z2| exceeds d0 at LENGTH by the first three terms of its series.
+    The expected time follows from the first half of the terms of Z1. So the processor need not wait
+    for the last coefficients.
     """
     expected = 0
     for i in range(LANES):
@@ -52,7 +52,7 @@ def expect_contact(a):
 
 
 def guess_contact(a):
-    """Set T to the expected time of a contact, or to LENGTH if none is expected before LENGTH."""
+    """In mode BRACKET set T to the estimated time of contact. If none is found, T is LENGTH."""
     for i in range(LANES):
         a[T + i] = min(first_guess(a, i), a[LENGTH + i])
     flight_early(a)
@@ -69,7 +69,7 @@ def find_contact(a):
 
     If there is such a time, MODE becomes MET, and WALL becomes the wall in contact. If there is
     certainly no such time, MODE becomes MISSED, and T keeps its value. MODE also becomes MISSED if
-    APART > 0: the loose mass sticks, or begins the flight behind a wall's surface. Before and after
+    APART > 0: the loose mass sticks, or `across.find_return` searches afterwards. Before and after
     the call END_Z1 and END_Z1_SLOPE hold Z1 and Z1' at T. If T < LENGTH before the call, a contact
     is expected at T (`expect_contact`) or slightly later.
 
@@ -140,9 +140,9 @@ def exclude_contacts(a):
     """Set MODE to MISSED in lanes whose loose mass certainly meets no wall in [0, T].
 
     Return how many lanes are still undecided. A cubic polynomial with the values and slopes of Z2
-    at 0 and T deviates from Z2 by at most `most` = T^4 max|Z2''''| / 384. Each half of the cubic
-    lies between its Bernstein coefficients. To bound Z2 as well, each half
-    needs `most` added to its middle coefficient, and 4/3 `most` to the neighbours of this one.
+    at 0 and T deviates from Z2 by at most `most` = T^4 max|Z2''''| / 384. In [0, T/2] and [T/2, T]
+    the cubic lies between its four Bernstein coefficients. The moduli of the coefficients bound
+    |Z2| if `most` is added to the coefficient at T/2, and 4/3 `most` to the coefficients beside it.
     """
     flight_snap(a)
     undecided = 0

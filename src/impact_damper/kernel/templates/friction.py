@@ -2,7 +2,7 @@
 
 SLIDE is the sign of Z2'. While the loose mass slides, friction changes Z1'' by PUSH and Z2'' - Z1''
 by -FRICTION * SLIDE. While the loose mass sticks (STUCK is 1), both masses move together. Let g be
-Z1'' without the loose mass. Then
+Z1'' without the damper (the row G includes friction). Then
 
     (1 + rm) Z1'' = g - rm (GRAVITY - BASE A cos(W T))
 
@@ -48,7 +48,7 @@ def hold(a):
     """Change parameters in lanes whose loose mass sticks, since both masses move as one body.
 
     The parameters of damping and spring are divided by 1 + rm. The stiffness and the dashpot of the
-    wall (the last two of HELD_ROWS) become 0, because the force of the wall is constant.
+    wall (last in `instances.HELD`) become 0, because the wall's force is internal to this body.
     """
     for k in range(len(HELD_ROWS)):
         row, free = HELD_ROWS[k], FREE_ROWS[k]

@@ -8,15 +8,14 @@ contact f is q + LAG q' (`separation`). The contact ends at the root of f. Value
     BRACKET   at most one root is possible. Chebyshev's method, secured by bisection, finds it.
     ENDING    the search has reached the end of the step without a root.
     MET       the root has been found.
-    MISSED    the step certainly contains no root.
-    MET_DEEP  a contact begins at |Z2| > d0, behind the wall's surface (`across.find_return`).
+    MISSED    certainly no root is in the step, or `across.find_return` searches for it later.
+    MET_DEEP  a contact begins at |Z2| > d0, before the wall is back (`across.find_return`).
     TURNED    before the root, the loose mass stops or begins to slide (`friction.find_turn`).
 """
 
 # Rounding error of an event function, relative to its largest term: 4 units in the last place.
 ROUNDING = 2.0**-50
-# An iteration in mode BRACKET ends with a move whose estimated error (`is_last_move`) is at most
-# LAST_MOVE times the tolerance.
+# A search in mode BRACKET ends when the estimated error is at most LAST_MOVE times the tolerance.
 LAST_MOVE = 0.01
 MARCH, BRACKET, ENDING, MET, MISSED, MET_DEEP, TURNED = 0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0
 # TINY prevents divisions by zero. FAR replaces infinity, because 0 times infinity is NaN.
@@ -40,7 +39,7 @@ def safe_advance(f, closing, bound):
 def march_step(t, f, closing, ahead, length, fine):
     """Return two numbers: the next time and the next mode of a search in mode MARCH.
 
-    The event function f has no root between t and t + `ahead`. `closing` says whether f decreases.
+    The event function f has no root between t and t + `ahead`. `closing` is true if f decreases.
     If f decreases, t is the root as soon as f is at most `fine`, its rounding error, or `ahead` is
     too short to change t.
     """
@@ -56,7 +55,7 @@ def chebyshev(first, bend):
 
 
 def is_last_move(a, i, move, rate):
-    """Return whether `move` is the last move. Its error is about |rate move|^3."""
+    """Return whether `move` is the last. Its error, in units of 1/rate, is about |rate move|^3."""
     turn = max(rate, 2.0 / a[LENGTH + i]) * move
     return abs(turn * turn * turn) <= max(LAST_MOVE * a[TOLERANCE + i], ROUNDING)
 
@@ -69,7 +68,8 @@ def bracketed_step(a, i, t, f, first, bend, rate, fine):
     leave the interval from LOW to HIGH, bisection replaces the move.
 
     `first` is an estimate of the move to the root, such as a Newton step. `bend` is the part of f''
-    that the estimate neglects, divided by f'. `is_last_move` uses `rate`. f has the error `fine`.
+    that `first` neglects, divided by f'. `rate` is the natural frequency of a contact, and 0 in
+    flight. The rounding error of f is `fine`.
     """
     low = a[LOW + i] = t if f > 0.0 else a[LOW + i]
     high = a[HIGH + i] = a[HIGH + i] if f > 0.0 else t
@@ -90,9 +90,9 @@ def bracketed_step(a, i, t, f, first, bend, rate, fine):
 
 
 def store_end(a, i, row, end, move, going):
-    """If `going`, store a function after `move`: the value in the row `end`, the slope in the next.
+    """If `going` is true, store a function's value at the time t + `move` in the row `end`.
 
-    The four rows from `row` on hold the function and its three derivatives before the move.
+    The next row gets the slope. The four rows from `row` on hold value and three derivatives at t.
     """
     value, slope = a[row + i], a[row + LANES + i]
     curve, jerk = a[row + 2 * LANES + i], a[row + 3 * LANES + i]

@@ -46,7 +46,7 @@ def predict_separation(a):
         longest = (LONGEST_DEEPENING if w >= 0.0 else LONGEST_RETURNING) * 2.0 * math.pi / natural
         length = min(a[LONGEST + i], longest)
         # If q = 0, the contact has just begun. It lasts half a damped natural period, corrected for
-        # g, which is Z1'' without the wall's force. If q is not 0, g is neglected.
+        # g, which is Z1'' without the damper. If q is not 0, g is neglected.
         g = a[COSINE + i] - spring(a, x, i, LANES) - h * v
         slope = spring_slope(a, x, i, LANES)
         drift = -a[FREQUENCY + i] * a[SINE + i] - slope * v - h * g
@@ -70,11 +70,11 @@ def find_separation(a):
     END_DEPTH and END_DEPTH_SLOPE receive the depth Z2 - SIDE d0 and the slope of the depth at T.
 
     Let q be the depth times the sign of the wall, n the natural frequency of the contact, and
-    D = DASHPOT (1 + 1/rm). Then q'' = g - n^2 q - D q', where |g| is at most a number G. The phase
-    is the angle of the point (n q, q') around the origin, and R is the distance from the origin. R
-    grows at most at the rate G, and falls at most at the rate G + D R. The phase advances at a rate
-    that differs from n by at most G/R + D/2. q + LAG q' is zero twice in a revolution of the phase.
-    If the difference is below PHASE_MARGIN n, the step has at most one root. MODE is then BRACKET.
+    `loss` = DASHPOT (1 + 1/rm). Then |q'' + n^2 q + loss q'| is at most `rest`. The phase is the
+    angle of the point (n q, q') around the origin, and R is its distance from the origin. R grows
+    at most at the rate rest, and falls at most at the rate rest + loss R. The phase advances at the
+    rate n, to within rest/R + loss/2. q + LAG q' is zero twice in a revolution of the phase. If
+    rest/R + loss/2 is below PHASE_MARGIN n, the step has at most one root, and MODE is BRACKET.
     """
     penetration_values(a)
     uncertain = 0

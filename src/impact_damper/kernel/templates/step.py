@@ -12,13 +12,13 @@ index in `a` at which a row begins: a[Y0 + i] belongs to lane i. `instances` des
 
 # The 64 bits of the float 1.0, read as an integer.
 ONE = 1023 << 52
-# A step is chosen so that its last terms are below SAFETY * tolerance * max(1, |Z1|, |Z1'|, ...).
+# Last terms should be below SAFETY * tolerance * max(1, |Z1|, |Z1'|, ...), but see EXCESS.
 # Contacts amplify errors. With 0.05 the errors of settled motions are below 10 times the tolerance.
 SAFETY = 0.05
 # A flight is shortened if its last terms exceed EXCESS times `largest_tail`. With EXCESS = 1 many
 # flights would be shortened, because `predict_length` is not exact.
 EXCESS = 4.0
-# A flight that begins at |Z2| > d0, before the released wall is back in place, lasts at most
+# A flight that begins at |Z2| > d0, while the wall is still coming back to d0, lasts at most
 # OUTSIDE times LAG. In the time LAG the wall's displacement falls to 1/e of its value.
 OUTSIDE = 2.0
 # A flight too short to change TIME ends in contact if the wall is nearer than NEAREST times d0.
@@ -50,9 +50,9 @@ def limit_length(a, series, order, excess):
 def predict_length(a):
     """Predict the LENGTH of a flight, at most LONGEST, from three coefficients of middle order.
 
-    It is assumed that the coefficients k x[k] of Z1' follow the law SCALE / r^(k-1). The orders
-    EARLY, EARLY + 1 and EARLY + 2 give three values of r. With the smallest r, LENGTH is the time
-    at which the last term of Z1' reaches `largest_tail`. The last coefficients are not needed.
+    It is assumed that the coefficients k x[k] of Z1' follow the law SCALE / r^(k-1), where SCALE is
+    the largest modulus among 1, Z1 and Z1'. The orders EARLY, EARLY + 1 and EARLY + 2 each give an
+    r. With the smallest r, LENGTH is the time at which the last term reaches `largest_tail`.
     """
     last = FLIGHT_ORDER - 1
     for i in range(LANES):
@@ -119,7 +119,7 @@ def flight_step(a):
     find_sway(a)
     for i in range(LANES):
         t = a[T + i]
-        # Next to a wall a step can be too short to change TIME. Then a contact begins (`stuck`).
+        # Next to a wall a step can be too short to change TIME (`stuck`). Then a contact begins.
         near = 1.0 if a[Y2 + i] > 0.0 else -1.0
         stuck = a[TIME + i] + t == a[TIME + i] and t < a[LONGEST + i] and near * a[Y3 + i] > 0.0
         stuck = stuck and near * a[Y2 + i] > (1.0 - NEAREST) * a[CLEARANCE + i]
@@ -142,7 +142,7 @@ def flight_step(a):
 
 
 def shorten_outside(a):
-    """Shorten flights that begin behind a wall's surface (`across.is_outside`)."""
+    """Shorten flights that begin at |Z2| > d0 (`across.is_outside`)."""
     for i in range(LANES):
         shorter = min(a[LENGTH + i], OUTSIDE * a[LAG + i])
         a[LENGTH + i] = shorter if is_outside(a, i) else a[LENGTH + i]
