@@ -59,7 +59,7 @@ def moved(y, h, k):
 
 @kernel_only
 def largest_within(x, v, x_end, v_end, h):
-    """Return max |Z1| of the ends of a step h and, if Z1' changes sign, of the point between."""
+    """Return max |Z1| at both ends of a step h and, if Z1' changes sign, at a turning point."""
     largest = max(abs(x), abs(x_end))
     if v * v_end < 0.0:
         largest = max(largest, abs(x + 0.5 * h * v * v / (v - v_end)))

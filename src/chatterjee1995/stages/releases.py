@@ -116,7 +116,7 @@ def migration(
 
 
 def _example(totals):
-    """Return the index of a run that succeeds after the median number of switchings (0 if none)."""
+    """Return the index of a run that reaches the goal by the median number of switchings, or 0."""
     reached = totals["trial_outcome"] == flag("trial_outcome", "reached")
     if not reached.any():
         return 0
@@ -125,7 +125,7 @@ def _example(totals):
 
 
 def _summary(switchings, totals):
-    """Return a dict: shares of runs that reach the goal, counts of releases by both motions."""
+    """Return a dict: shares of runs at the goal, counts of releases by motion before and after."""
     reached = totals["trial_outcome"] == flag("trial_outcome", "reached")
     within = reached & (totals["total_time"] <= PAPER_CYCLES)
     before, after = switchings["released_from"], switchings["destination"]
