@@ -105,7 +105,7 @@ def _distinct(p, motions):
 
 
 def linear_flow(p, state, periods):
-    """Return Z1 (n,) at n times along an orbit, and the derivatives (n, 2, 2) by `state` there."""
+    """Return Z1 (n,) along an orbit, and (n, 2, 2) the derivative of each state by the first."""
     y, tangents, work = np.tile(state, 2), np.eye(4)[:2].copy(), workspace()
     times = strobe_time(p) + np.arange(periods * STEPS + 1) * 2 * np.pi / (STEPS * p[FREQUENCY])
     displacement, matrices = [y[0]], [np.eye(2)]

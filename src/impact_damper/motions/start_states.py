@@ -97,7 +97,7 @@ def search_starts(oscillator, systems, count, radius, seed, settling, *, whole_g
 
 
 def describe_search(starts, radius, seed, whole_gap=False) -> dict:
-    """Return the arguments of a search, for storage in a dataset. Unused ones are left out."""
+    """Return the arguments of a search, for storage in a dataset. Unused arguments are left out."""
     parameters = {"starts": starts, "seed": seed} | ({"whole_gap": True} if whole_gap else {})
     return parameters if radius is None else parameters | {"radius": radius}
 
@@ -229,7 +229,7 @@ def _ramp(target, indices, factor, tolerance):
 
 
 def barrier(oscillator):
-    """Return |Z1| beyond which a softening spring pushes outward, and |Z1'| at Z1 = 0 needed."""
+    """Return |Z1| beyond which a softening spring pushes outward; |Z1'| at Z1 = 0 to get there."""
     stiffness, softening = oscillator.linear_frequency**2, -oscillator.cubic
     return math.sqrt(stiffness / softening), stiffness / math.sqrt(2 * softening)
 

@@ -92,7 +92,7 @@ def reached(data):
 def _follow(source, target, index, settling, links, ends):
     """Follow all motions of the catalogue `source` to the next value; add the results to `target`.
 
-    `links` receives the serial numbers of two motions on one branch, `ends` the ends of branches.
+    `links` receives pairs of serial numbers of motions on one branch, `ends` the branches' ends.
     """
     followed = [
         follow_stable(source.p, record["state"], record["period"], index, target.p[index])
@@ -144,7 +144,7 @@ def _end_event(record, multiplier, beyond):
 
 
 def _branches(catalogues, links):
-    """Return the branch index of each motion. Linked or matched motions are on one branch."""
+    """Return the branch index of each motion. `links` and `match_unsettled` pair its motions."""
     links = links + [
         (first.numbers[i], second.numbers[j])
         for first, second in pairwise(catalogues)

@@ -137,7 +137,7 @@ def _is_known(record, known, states):
 
 
 def _exponent(growth):
-    """Return the mean of `growth`, and the standard error of this mean from BATCHES parts."""
+    """Return the mean of `growth`, and the standard error of this mean from BATCHES batches."""
     length = len(growth) // BATCHES
     batches = growth[-BATCHES * length :].reshape(BATCHES, length).mean(axis=1)
     return np.mean(batches), np.std(batches, ddof=1) / math.sqrt(BATCHES)

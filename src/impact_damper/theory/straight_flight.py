@@ -13,7 +13,7 @@ from impact_damper.model.bounds import check_number
 from impact_damper.model.exit_rules import damping_ratio
 from impact_damper.model.parameters import check_closed_form
 
-# The search for the smallest max |x| compares this number of impulses q, then refines the best.
+# The search for the smallest max |x| tries this number of values of q, then refines the best.
 GRID = 65
 NEWTON_STEPS = 3
 # Shift of the two characteristic roots if they are equal, to avoid a division by 0.
@@ -54,7 +54,7 @@ class Flight(NamedTuple):
 
     @property
     def contact_phase(self):
-        """Duration of a contact, as a phase."""
+        """Duration of a contact times W."""
         return np.pi * self.contact / np.sqrt(1 - damping_ratio(self.restitution) ** 2)
 
     @property
