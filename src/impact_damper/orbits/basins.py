@@ -47,11 +47,11 @@ CELLS_RANGE = {"least": 2, "most": 10**4}
 
 
 class Labelled(NamedTuple):
-    """Attractors of a plane of n states (Z1, Z1'). Each is run with m states of the loose mass.
+    """Labels of the n states of a plane. Each state is run m times: for m states of the loose mass.
 
     labels: Index of the attractor, or a negative flag without an attractor, shape (m, n).
     periods: Number of forcing cycles after which the label is known, shape (m, n).
-    records: The attractors. label: Function of any states, shape (k, 4): labels and periods.
+    records: The attractors. label: Function from states, shape (k, 4), to labels and periods.
     """
 
     labels: np.ndarray
@@ -119,7 +119,7 @@ def basins(
         For each attractor: the period, the largest displacement, Z1 and Z1' at `phase`, and
 
         - the share of states that lead to the attractor, and their median convergence time;
-        - with `shock`: the longest convergence time after +shock or -shock, infinite if none;
+        - with `shock`: the longest convergence time after +shock or -shock, infinite without return;
         - the finite-time basin stability: the share of states that reach it in `within` cycles;
         - the minimal critical shock: the smallest impulse at `phase` after which the motion does
           not return. Impulses up to a jump of Z1' by the largest speed in the plane are tried.

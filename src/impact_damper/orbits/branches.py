@@ -26,8 +26,8 @@ WEAK = 0.02
 # `Orbit.deviation` at the fold is below VANISHED times the deviation at the point before.
 VANISHED = 0.5
 # A grazing is searched for if the sequence of contacts changes on a step, or if a step shorter than
-# CLOSE_STEP fails. The search goes as far as REACH times the length of the step. If it fails, a
-# step longer than CLOSE_STEP on which the sequence changes is halved.
+# CLOSE_STEP fails. The search goes as far as REACH times the length of the step. If it finds none,
+# a step longer than CLOSE_STEP on which the sequence changes is halved.
 CLOSE_STEP, REACH = 2e-3, 8.0
 # A step longer than CLEAR_STEP is halved if it may contain two folds, or if an event on the step
 # was not located.

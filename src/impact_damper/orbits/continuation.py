@@ -39,8 +39,8 @@ LONGEST, LONGEST_UNSTABLE, SMALLEST = 0.02, 0.06, 0.05
 # The first guess in `Problem.at_value` is at most this far from the given point. A farther guess
 # near a fold could be a state so large that its integration takes minutes.
 FARTHEST_GUESS = 0.08
-# The distance of a point from its first guess must be below about ASIDE times the step, because a
-# farther point may lie on another branch. The first correction may be FAILING times this distance.
+# A point may be as far from its first guess as about ASIDE times the length of the step. A farther
+# point may lie on another branch. The first correction may be FAILING times this distance.
 ASIDE, FAILING = 0.2, 2.0
 
 

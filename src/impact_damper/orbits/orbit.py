@@ -179,7 +179,7 @@ class Orbit:
 
     @cached_property
     def sequence(self):
-        """Walls in the order of contacts, such as "+-"; the alphabetically first rotation."""
+        """Walls in the order of contacts, such as "+-"; of all rotations the first by alphabet."""
         walls = "".join("+" if wall > 0 else "-" for wall in self.contacts[:, 0])
         return min((walls[k:] + walls[:k] for k in range(len(walls))), default="")
 

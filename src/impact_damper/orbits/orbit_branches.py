@@ -103,8 +103,8 @@ def orbit_branches(
 
     - branches that leave a branch of period 1 or 3: at each loss of symmetry, and at a period
       doubling if orbits of this branch beside the doubling are stable;
-    - branches that leave a branch of another period at an event beside which orbits of this branch
-      are stable, if they have a period up to 9 and begin with stable orbits;
+    - branches that leave a branch of another period at such a point, if orbits of this branch
+      beside the point are stable, and if the new branch has a period up to 9 and begins stable;
     - the branch of symmetric orbits, or of half the period, at which a branch of a period up to 4
       ends.
 

@@ -1,7 +1,7 @@
 """Switch to the branches that leave where an orbit loses its symmetry or doubles its period.
 
-The new branch begins in the direction of the eigenvector of -1 in `Orbit.cycle_multipliers`. The
-corrections by Newton's method are orthogonal to it and do not lead back to the first branch.
+The new branch begins in the direction of the eigenvector of -1 in `Orbit.cycle_multipliers`.
+Newton's corrections are orthogonal to this direction and do not lead back to the first branch.
 """
 
 from dataclasses import replace
@@ -20,7 +20,7 @@ from impact_damper.orbits.shooting import shoot
 DISTANCES, ASIDE = (2e-2, 4e-3, 8e-4, 1e-4, 1e-5), 0.5
 # If these guesses fail, a grazing may be near. New guesses multiply |Z2| - d0 in an extremum of Z2
 # by 1 + each of SHARES, within REACH of the bifurcation. An orbit found may be nearer or farther by
-# the fraction MISSED. Through the grazing, at most PASSAGES orbits found are followed.
+# the fraction MISSED. At most PASSAGES of the orbits found are followed through the grazing.
 SHARES, MISSED, REACH, PASSAGES = (0.5, 0.2, 0.1, 0.05, 0.02), 0.5, 1e-3, 2
 # Kinds of events at which another branch leaves.
 LEAVING = ("symmetry_breaking", "period_doubling")

@@ -42,7 +42,7 @@ def branch(data, axes=None):
     Parameters
     ----------
     data : xarray.Dataset or list of xarray.Dataset
-        Results of `orbit_branches`, all with one value of the argument `parameter`.
+        Results of `orbit_branches`, all with equal `parameter`.
     axes : matplotlib.axes.Axes, optional
 
     Returns

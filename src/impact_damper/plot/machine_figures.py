@@ -70,7 +70,7 @@ def frequency_panel(axes, data):
 def over_frequency(data) -> tuple:
     """Return promised displacements over frequency: for nominal values, and the largest.
 
-    The largest is taken over all values within the tolerances that were tried. NaN is interpolated.
+    The largest is taken over all sets of values within the tolerances. NaN is interpolated.
     """
     frequency, table = data["promise_frequency"].values, data["promise_displacement"].values
     rows = []
@@ -173,7 +173,7 @@ def draw_transients(data):
 
 @style.context({"axes.labelsize": 8.0, "lines.markersize": 2.6})
 def draw_machines(*, machines):
-    """Return a figure with a row for each machine: over frequency and over gap (`draw_answer`)."""
+    """Return a figure with the two panels of `draw_answer` for each machine, in a row each."""
     drawn = style.figure("double", 1.0 + 1.75 * len(machines))
     panels = drawn.subplots(len(machines), 2, squeeze=False)
     for (left, right), data, letter in zip(panels, machines, ascii_lowercase, strict=False):

@@ -73,7 +73,7 @@ def _time_panel(axes, run):
 
 
 def _in_contact(run, wall):
-    """Return the mask of times in contact with a wall. A contact with the end NaN did not end."""
+    """Return the mask of times in contact with a wall. The end of an unfinished contact is NaN."""
     chosen = run["contact_wall"].values == wall
     contacts = run[["contact_begin", "contact_end"]].isel(contact=chosen)
     begun = contacts["contact_begin"] <= run["time"]
