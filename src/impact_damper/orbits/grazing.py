@@ -158,7 +158,7 @@ def _targets(height, sharp, direction):
 SHIFT = 1e-10
 # At first the list of extrema has room for TURNS extrema in each segment.
 TURNS = 256
-# Extrema of two neighbouring orbits are the same if their phases (radian) differ by less than MOVED.
+# Extrema of neighbouring orbits are the same if their phases (radian) differ by less than MOVED.
 MOVED = 0.1
 
 
