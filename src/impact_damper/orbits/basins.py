@@ -119,7 +119,7 @@ def basins(
         For each attractor: the period, the largest displacement, Z1 and Z1' at `phase`, and
 
         - the share of states that lead to the attractor, and their median convergence time;
-        - with `shock`: the longest convergence time after +shock or -shock, or infinity;
+        - with `shock`: longest convergence time after +shock or -shock, infinite without return;
         - the finite-time basin stability: the share of states that reach it in `within` cycles;
         - the minimal critical shock: the smallest impulse at `phase` after which the motion does
           not return. Impulses up to a jump of Z1' by the largest speed in the plane are tried.
