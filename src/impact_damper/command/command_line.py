@@ -57,7 +57,7 @@ def main(
 
     Plain numbers are in kg, N/m, N, m and Hz.
 
-    The documentation has a page "Describe a machine in a file" (all keys) and "What it is for".
+    The documentation has the pages "Describe a machine in a file" (all keys), "What it is for".
     """
 
 

@@ -179,7 +179,7 @@ class Section(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     def contradictions(self, path, config):
-        """Yield a message for each contradiction. `path` has the keys from `config` to here."""
+        """Yield a message for each contradiction. `path`: keys from `config` to this section."""
         yield from ()
 
     @model_validator(mode="wrap")

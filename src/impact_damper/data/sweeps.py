@@ -12,7 +12,7 @@ NAMES = {value: name for name, value in OUTCOME.items()}
 class Family(NamedTuple):
     """A motion found over a range of a sweep. `starts` counts the random starts that lead to it.
 
-    `places` is True where arrays of the sweep, shape (parameter values, motions), describe it.
+    `places`, shape (parameter values, motions), is True where arrays of the sweep have this motion.
     """
 
     outcome: str

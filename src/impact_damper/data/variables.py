@@ -58,7 +58,7 @@ def register(table) -> None:
 
 
 def _named_values(text):
-    """Return {name: number} for a text such as "absent 0, found 1". It may name a variable too."""
+    """Return {name: number} for a text such as "absent 0, found 1", or for a variable's name."""
     text = text.strip()
     if not text or text in VARIABLES:
         return VARIABLES[text].flags if text else None
@@ -66,7 +66,7 @@ def _named_values(text):
     return {name: int(value) for name, value in pairs}
 
 
-# Labels of states that lead to no attractor or, if `mixed`, to one that depends on the loose mass.
+# Labels of states that lead to no attractor. `mixed`: to several, by the place of the loose mass.
 BASIN_LABEL = {
     "unresolved": -1,
     "escaped": -2,

@@ -68,7 +68,7 @@ def absorber_responses(
 
 @cache
 def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
-    """Return the absorber with the least peak displacement over `band`. Ignore a cubic spring."""
+    """Return the absorber that minimizes the peak displacement over `band` without cubic spring."""
     ratio, linear = mass / machine.mass, replace(machine, cubic_stiffness=0.0)
     frequencies = _frequencies(linear, ratio, band)
 

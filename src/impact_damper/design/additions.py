@@ -67,7 +67,7 @@ def other_masses(task, decision, progress=None) -> xr.Dataset:
 
 
 def _force(task, gap, frequency):
-    """Return the largest contact force (N) in the largest motion, or NaN if this motion escapes."""
+    """Return the largest contact force (N) of the largest motion at a gap (mm), NaN if escaped."""
     cell = Cell(1e-3 * gap, frequency)
     motions = run(task, [cell], task.effort.starts, ("masses",))
     k, p = int(np.argmax(motions.peaks[0])), task.packed(*cell)

@@ -34,7 +34,7 @@ BLOCK, TAIL, HORIZON = 50, 50, 100_000
 # Numbers of cycles, summed over the motions of a regime. POOLED: least number for extrapolation.
 # MOST_POOLED: number after which the regime is not run further.
 POOLED, MOST_POOLED = 25_000, 200_000
-# Until POOLED cycles are run, the displacement is raised by this fraction for each doubling to go.
+# Below POOLED cycles the displacement is raised by this fraction for each doubling up to POOLED.
 MISSING = 0.03
 # A run has QUARTERS parts. Each part has a largest displacement of all motions of the regime. If
 # these differ by at most STEADY (ROUGH to compare gaps) x the largest, nothing is extrapolated.
@@ -144,7 +144,7 @@ class Motions:
         return sizes, known
 
     def bounds(self, rank) -> tuple:
-        """Return three arrays over cells: `rank`-th largest displacement, its start, 1 if known."""
+        """Return arrays over cells: `rank`-th largest displacement, its start's index, if known."""
         found = np.empty(len(self.peaks)), *np.empty((2, len(self.peaks)), int)
         for k in range(len(self.peaks)):
             sizes, known = self.numbers(k)

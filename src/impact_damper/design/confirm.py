@@ -175,7 +175,7 @@ def conclude(task, found, curve, status) -> xr.Dataset:
 def rivals(task) -> xr.Dataset:
     """Return largest displacements with three absorbers: tuned, detuned, and `task.absorber`.
 
-    If the computation fails, they are NaN, and the addition `competitors` is flagged as failed.
+    If the computation fails, the results are NaN, and `addition_status` of `competitors` is failed.
     """
     names = ("tuned_displacement", "detuned_displacement", "own_absorber_displacement")
     values = dict.fromkeys(names, np.nan)

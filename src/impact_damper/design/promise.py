@@ -11,7 +11,7 @@ from impact_damper.design.task import VARIED
 
 # Largest number of corners. In a corner each value is at one end of its tolerance.
 CORNERS = 8
-# The peak of a set of factors is its largest bound over frequency.
+# The peak of a set of factors is the largest of its bounds at all frequencies.
 # Up to SPLITS rounds add frequencies beside peaks that are at least NEAR x the largest peak.
 # A finite peak is known if the last round raised it at most by the fraction PEAK, and if a parabola
 # through the peak and its two neighbours is higher than the peak by at most this fraction.

@@ -38,7 +38,7 @@ def quiet_orbit(task, gap, frequency) -> Orbit | None:
 
 
 def over_gap(task, gap, frequency, orbit, cliff) -> xr.Dataset:
-    """Return a quiet orbit over the gap (mm), its best gap, and whether this is beyond `cliff`."""
+    """Return a dataset of a quiet orbit over the gap. `cliff` is a gap (mm), infinite if none."""
     gaps = sizes = moduli = np.empty(0)
     if orbit is not None:
         oscillator, damper, turning = task.system(1e-3 * gap, frequency)

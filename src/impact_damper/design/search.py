@@ -125,9 +125,10 @@ class Curve:
         return found
 
     def worst_inside(self, gap) -> np.ndarray:
-        """Return `self.sets`. The gap's factor leads from `gap` to the worst gap in its tolerance.
+        """Return `self.sets`, with (worst gap)/`gap` as the factor of the gap.
 
-        The result is empty if `gap` or an end of its tolerance is at least as bad.
+        The worst gap has the largest displacement within the tolerance of `gap`. The result is
+        empty if `gap` or an end of its tolerance is at least as bad.
         """
         low, high = self.task.gap_ends(gap)
         inside = np.flatnonzero((self.gaps > low) & (self.gaps < high))
@@ -178,9 +179,8 @@ def middle_gap(first, last) -> float:
 def score(task, gaps, frequencies, starts, stream, progress=None, sets=(NOMINAL,)) -> tuple:
     """Return three sequences over gaps (mm): displacement (mm), frequency (Hz), set of factors.
 
-    The results of a gap are results of its worst cell. About the fraction (1 - share)/2 of the
-    motions of a cell exceed its displacement. If rare motions may have made the displacement large,
-    the cell is run again with more starts (see DOUBTED).
+    The results of a gap are results of its worst cell. About (1 - share)/2 of the motions of a cell
+    exceed its displacement. A doubtful cell is run again with more starts (see DOUBTED).
     """
     conditions = [(f, tuple(each)) for f in frequencies for each in sets]
     cells = [Cell(1e-3 * gap, *each) for gap in gaps for each in conditions]

@@ -192,7 +192,7 @@ def unforced_period(stiffness, cubic, amplitude) -> float:
 
     The motion is A cn(w t | m) with w^2 = a + b A^2 and m = b A^2/(2 w^2). The period is 4 K(m)/w.
     K is the complete elliptic integral of the first kind. (A. H. Nayfeh and D. T. Mook, Nonlinear
-    Oscillations, 1979, section 2.1.) The period is infinite if the spring pulls outwards at A.
+    Oscillations, 1979, section 2.1.) The period is infinite if the spring pushes outwards at A.
     """
     square = stiffness + cubic * amplitude**2
     if square <= 0:
