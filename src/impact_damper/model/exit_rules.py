@@ -5,7 +5,7 @@ the damping ratio, u + 2 z u' the force of the wall. Time is multiplied by the n
 By `zero_penetration`, the paper's rule, a contact ends when u = 0. Just before, the force pulls if
 z > 0. Equation (25) gives z. By `no_tension` a contact ends when the force falls to 0. If z < 1,
 the restitution is then exp(-(pi - 2 A) tan A) with z = sin(A) (Schwager and Poeschel, Physical
-Review E 78, 2008, 051304). If z > 1, it is exp(-2 B coth B) with z = cosh(B).
+Review E 78, 2008, 051304). If z > 1, the restitution is exp(-2 B coth B) with z = cosh(B).
 """
 
 import math

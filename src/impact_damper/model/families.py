@@ -10,7 +10,7 @@ from impact_damper.model.packed import FORCE, UNBALANCE, pack
 from impact_damper.model.parameters import Damper, Oscillator
 
 # PARAMETERS that can vary along a branch, each with its dataclass. The frequency has none. The
-# coordinate along a branch is the parameter if LINEAR has its name, otherwise its logarithm.
+# coordinate along a branch is the parameter if LINEAR has its name, otherwise log(parameter).
 PARAMETERS = {"frequency": None}
 PARAMETERS |= dict.fromkeys(("damping", "cubic", "force", "unbalance"), Oscillator)
 PARAMETERS |= dict.fromkeys(("mass_ratio", "clearance", "restitution", "contact_stiffness"), Damper)

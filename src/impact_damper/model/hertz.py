@@ -109,7 +109,7 @@ class HertzContact:
         return Impact(q, self.coefficient * q**1.5, DURATION * q / speed)
 
     def stiffness(self, speed, mass) -> float:
-        """Return the stiffness k (N/m) of a linear spring with the same largest compression q.
+        """Return the stiffness k (N/m) of a linear spring that the impact compresses by q as well.
 
         k q^2/2 = m v^2/2, as in `compression`. The force k q is 4/5 of the force after Hertz.
         """

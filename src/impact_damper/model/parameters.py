@@ -191,7 +191,7 @@ class Damper:
 
     @property
     def contact_damping(self) -> float:
-        """zeta_c = z/sqrt(1 + rm); z: `exit_rules`, for "zero_penetration" by equation (25)."""
+        """Damping ratio zeta_c = z/sqrt(1 + rm), with z by equation (25) or as in `exit_rules`."""
         return damping_ratio(self.restitution, self.exit_rule) / math.sqrt(1 + self.mass_ratio)
 
     @property
@@ -206,7 +206,7 @@ class Damper:
 
 
 def beyond_closed_forms(oscillator, damper) -> list:
-    """Return which of gravity, friction and base are not 0, as pairs (dataclass, name)."""
+    """Return pairs (damper or oscillator, name) for gravity, friction and base, if not 0."""
     terms = (damper, "gravity"), (damper, "friction"), (oscillator, "base")
     return [(part, name) for part, name in terms if getattr(part, name)]
 

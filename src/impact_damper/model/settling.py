@@ -19,9 +19,9 @@ class Settling:
         Forcing cycles after which a run is stopped if it is chaotic with a Lyapunov exponent above
         0.05 (per unit of T), or if the loose mass touched no wall in these cycles and hardly moves.
     limit : int
-        Number of forcing cycles after which every run is judged. The outcome is then chaotic if
-        chaos is certain. It is drifting if the primary mass is on an orbit and the loose mass has
-        touched no wall for `patience` cycles. Otherwise the motion is undecided, and runs on.
+        Number of forcing cycles after which every remaining run is judged. The outcome is
+        chaotic if chaos is certain, and drifting if the primary mass is on an orbit and the loose
+        mass has touched no wall for `patience` cycles. An undecided motion runs on (`further`).
     watched : int
         Number of forcing cycles, after the run, over which an unsettled motion is measured.
     further : int

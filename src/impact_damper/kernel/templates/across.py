@@ -18,7 +18,7 @@ def is_outside(a, i):
 def load_across(a):
     """Compute ACROSS, the acceleration across (see above) at the beginning of a step.
 
-    In the step its modulus is at most MOST. SWAYS is the number of lanes in which it is not 0.
+    MOST bounds the modulus in the step. SWAYS: number of lanes with gravity, base or friction.
     """
     acting = 0
     rough = 0
