@@ -175,7 +175,7 @@ def _lower_squares(n):
     """Yield lines that update the coefficients s0, s1, ... of k3 l^2 after a new term of l.
 
     l = x0 + x1 t + ... + x{n} t^n, where x{n} is new. The lines add 2 k3 x{n} x{j} to s{n+j} for
-    each j < n, and set s{2n} = k3 x{n}^2.
+    each j < n, and set s{2n} = k3 x{n}^2. docs/explanation/series.md says what l is for.
     """
     yield f"y{n} = double * x{n}"
     for j in range(n - n % 2, 2 * n, 2):

@@ -152,7 +152,7 @@ class Writer:
         return f"a[{index} + i]" if self.lanes > 1 else f"a[{index}]"
 
     def at_tangent(self, row, k=0):
-        """Return code such as "d[48 + i]" for a tangent's number, k rows after `row` ("": 0)."""
+        """Return code such as "d[8 + i]" for a tangent's number, k rows after `row` ("": row 0)."""
         return f"d[{(self.rows.get(row, 0) + k) * self.tangents} + i]"
 
     def function(self, name, lines, tangent=False, first=(), side_by_side=4):

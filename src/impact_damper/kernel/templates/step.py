@@ -119,7 +119,7 @@ def flight_step(a):
     find_sway(a)
     for i in range(LANES):
         t = a[T + i]
-        # Next to a wall a step can be too short to change TIME (`stuck`). Then a contact begins.
+        # `stuck` (not STUCK): a step next to a wall is too short to change TIME. A contact begins.
         near = 1.0 if a[Y2 + i] > 0.0 else -1.0
         stuck = a[TIME + i] + t == a[TIME + i] and t < a[LONGEST + i] and near * a[Y3 + i] > 0.0
         stuck = stuck and near * a[Y2 + i] > (1.0 - NEAREST) * a[CLEARANCE + i]
