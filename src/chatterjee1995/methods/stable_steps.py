@@ -5,7 +5,6 @@ import math
 from dataclasses import replace
 
 import numpy as np
-from scipy.stats import linregress
 
 from chatterjee1995.methods.grid_following import Grid
 from chatterjee1995.methods.integrators import integrators
@@ -99,8 +98,8 @@ def _slope(stiffnesses, steps):
     use = np.isfinite(steps) & (stiffnesses >= STIFF)
     if use.sum() < 3:
         return np.nan, np.nan
-    found = linregress(np.log(stiffnesses[use]), -np.log(steps[use]))
-    return found.slope, found.stderr
+    line, covariance = np.polyfit(np.log(stiffnesses[use]), -np.log(steps[use]), 1, cov=True)
+    return line[0], math.sqrt(covariance[0, 0])
 
 
 def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, most_steps, periods):

@@ -31,7 +31,9 @@ class Optimum(
 
     @stage(
         "impact_damper.orbits.clearance_sweep:clearance_sweep",
-        "Largest displacement against clearance, and its optimum, for {name}",
+        "Largest displacement against clearance, and its optimum, for all dampers",
+        together=True,
+        priority=1,
     )
     def optimum(self, config) -> dict:
         sweep = {
@@ -70,7 +72,8 @@ class DesignRules(system.WithOscillator):
 
     @stage(
         "chatterjee1995.stages.design_rules:design_rules",
-        "Rules for the clearance against the optimum of the motion, on the grid {name}",
+        "Rules for the clearance against the optimum of the motion, on all grids",
+        together=True,
         priority=1,
     )
     def design_rules(self, config) -> dict:

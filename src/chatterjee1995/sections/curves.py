@@ -53,6 +53,7 @@ class Curve(system.MaybeWithDamper):
         "impact_damper.theory.harmonic_balance:harmonic_balance",
         "Harmonic balance of all curves",
         together=True,
+        priority=1,
     )
     def harmonic_balance(self, config) -> dict:
         points = config.points.harmonic_balance
