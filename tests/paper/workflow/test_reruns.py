@@ -40,7 +40,7 @@ VALUES = [
         "harmonic_balance",
         *chapters("design", "responses", "claims"),
     ),
-    (("points", "clearances", 47), "optimum/*", *chapters("clearance", "responses", "claims")),
+    (("points", "clearances", 47), "optimum", *chapters("clearance", "responses", "claims")),
     (("collisions", "figure_05a", "mass_ratio", 0.13), "collisions", *chapters("claims")),
     (
         ("oscillators", "l100", "damping", 0.22),
