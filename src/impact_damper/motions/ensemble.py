@@ -1,4 +1,4 @@
-"""Run many motions on several threads, until each settles or enters a neighbourhood of an orbit."""
+"""Run many motions on several threads, until the outcome of each motion is known."""
 
 import math
 
@@ -24,9 +24,9 @@ from impact_damper.motions.steady import run_chunks, settle_with
 from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.motions.watch import RING, SEEN, begin_watch, watch
 
-# Number of states that are labelled in one call of a kernel. Ctrl-C waits until the call ends.
+# `label_states` runs this number of motions in one call of a kernel. Ctrl-C waits until it ends.
 LABELLED = 4096
-# Labels of states that lead to no known orbit. GONE: the motion escapes. UNKNOWN: other.
+# Labels of states. GONE: the motion escapes. UNKNOWN: the motion leads to no known orbit.
 GONE, UNKNOWN = -2, -1
 
 
@@ -41,11 +41,11 @@ def settle(
     progress=None,
     stop=None,
 ):
-    """Run motions from states (m, 4) until `watch` stops them; return an array of `records.MOTION`.
+    """Run m motions until their outcomes are known; return an array of m records (`MOTION`).
 
-    Row i of `parameters` holds the packed parameters of motion i. If `from_strobe`, all states are
-    at the first strobe, W T = pi/2. Otherwise all states are at the time T = `start`, at most a
-    cycle before the first strobe. If another thread sets `stop[0]`, the records are incomplete.
+    Motion i has the packed parameters parameters[i] and starts in states[i]. If `from_strobe`, all
+    motions start at the first strobe, W T = pi/2. Otherwise they start at the time T = `start`, at
+    most a cycle before it. If another thread sets `stop[0]`, the records are incomplete.
     """
     parameters = np.ascontiguousarray(parameters, float)
     strobes = 0.5 * np.pi / parameters[:, FREQUENCY]
@@ -56,7 +56,7 @@ def settle(
 
 @kernel
 def settle_many(parameters, states, start, tolerance, patience, limit, out, stop):
-    """Run motions from states at the times `start` until `watch` stops them; fill records `out`."""
+    """Run motion i from states[i] at the time start[i], for all i; write records into `out`."""
     size = min(len(out), RESIDENT)
     pool = make_pool(size)
     seen = np.zeros(size, SEEN)
@@ -89,7 +89,7 @@ def settle_many(parameters, states, start, tolerance, patience, limit, out, stop
 
 @kernel
 def follow_many(parameters, states, cycles, tolerance, contacts, largest):
-    """Run motions from the strobe for a number of forcing cycles; update `states`.
+    """Run motions from the strobe for `cycles` forcing cycles. The last states replace `states`.
 
     `contacts` (m,) receives the number of contacts that begin in each motion. `largest` (m,)
     receives the largest |Z1| of each motion, or infinity after an escape.
@@ -103,13 +103,13 @@ def follow_many(parameters, states, cycles, tolerance, contacts, largest):
     advance(parameters, states, sides, begins, ends, tolerance, contacts, largest)
 
 
-# Two kernels for `settle_with`: the first settles motions, the second runs them for more cycles.
+# Kernels that run many motions at once: until they settle, or for a number of cycles.
 SIDE_BY_SIDE = settle_many, follow_many
 
 
 @kernel
 def take(pool, m, i, parameters, states, start, tolerance, seen, out):
-    """Put motion i at index m of the pool of running motions, or nothing if i is too large."""
+    """Put motion i, if there are so many motions, at index m of the pool of running motions."""
     if i < len(out):
         p, y = parameters[i], states[i]
         begin_watch(seen[m], i, out[i])
@@ -119,7 +119,7 @@ def take(pool, m, i, parameters, states, start, tolerance, seen, out):
 
 @kernel_only
 def take_state(pool, m, i, p, states, begin, first, tolerance, y, taken, strobes):
-    """Put the free motion from states[i] at index m of the pool, or nothing if i is too large."""
+    """Put the free motion from states[i], if there is such a state, at index m of the pool."""
     if i < len(states):
         taken[m], strobes[m] = i, 0
         y[0], y[1], y[2], y[3] = states[i, 0], states[i, 1], states[i, 0], states[i, 1]
@@ -128,10 +128,11 @@ def take_state(pool, m, i, p, states, begin, first, tolerance, y, taken, strobes
 
 
 def label_states(p, states, phase, attractors, tolerance, limit, workers=1, progress=None):
-    """Return labels of states of the free oscillator, and the cycles until each label is known.
+    """Return two arrays: labels of states of the free oscillator, and cycles until each was known.
 
-    `states` (n, 2) are Z1 and Z1' at the forcing phase `phase`. A label is the index of an orbit in
-    `attractors.records`, GONE after an escape, or UNKNOWN if no orbit is near after `limit` cycles.
+    `states` (n, 2) are Z1 and Z1' at the forcing phase `phase`. The label of a state is the index
+    in `attractors.records` of the orbit to which the state leads. The label is GONE if the motion
+    escapes, and UNKNOWN if it enters no neighbourhood of an orbit within `limit` cycles.
     """
     states = np.ascontiguousarray(states, float)
     strobe = 0.5 * math.pi
@@ -151,7 +152,7 @@ def label_states(p, states, phase, attractors, tolerance, limit, workers=1, prog
 
 @kernel
 def label_many(p, begin, tolerance, limit, neighbourhoods, states, labels, periods, stop):
-    """Fill `labels` as in `label_states`, `periods` with the cycles until each label is known."""
+    """Write the two results of `label_states` into `labels` and `periods`."""
     owner, centre, shape = neighbourhoods
     size = min(len(states), RESIDENT)
     pool = make_pool(size)
@@ -183,7 +184,7 @@ def label_many(p, begin, tolerance, limit, neighbourhoods, states, labels, perio
 
 @kernel_only
 def which(x, v, owner, centre, shape):
-    """Return the index of the orbit whose neighbourhood contains the state (x, v), or UNKNOWN."""
+    """Return the index of the orbit whose neighbourhood contains Z1 = x, Z1' = v; or UNKNOWN."""
     for k in range(len(owner)):
         dx, dv = x - centre[k, 0], v - centre[k, 1]
         first = shape[k, 0, 0] * dx + shape[k, 0, 1] * dv

@@ -21,10 +21,10 @@ from impact_damper.motions.strobe_map import STROBE, one_period, strobe_time
 from impact_damper.motions.undecided import name_undecided
 from impact_damper.motions.watch import RING, SEEN, begin_watch, watch
 
-# Motions in a chunk. A call of a kernel runs one or more chunks. Ctrl-C waits until the call ends.
+# Number of motions in a chunk. A call of a kernel runs one or more chunks.
 CHUNK = 128
-# MOST_CHUNKS: largest number of chunks in one call. SLICES: smallest number of calls for each of
-# several threads, if there are enough motions.
+# MOST_CHUNKS: largest number of chunks in one call of a kernel. Ctrl-C waits until the call ends.
+# SLICES: smallest number of calls for each of several threads, if there are enough motions.
 MOST_CHUNKS, SLICES = 8, 3
 
 
@@ -68,7 +68,7 @@ def steady_motion(
     p = model.pack()
     y = read_state(model, state)
     start = read_start(model, state, start)
-    # Shift the start by whole forcing cycles into the cycle that ends at the strobe.
+    # Shift the start by whole forcing cycles into the cycle that ends at the first strobe.
     strobe, period = STROBE / model.frequency, 2 * np.pi / model.frequency
     begin = min(start - np.ceil((start - strobe) / period - 1e-9) * period, strobe)
     record = settle_with(ONE_BY_ONE, p[None], y[None], np.array([begin]), settling)[0]
@@ -80,7 +80,7 @@ def steady_motion(
 
 
 def steady_orbit(system, damper, frequency, state, *, samples=200, settling=None):
-    """Return one period of the steady motion that a state leads to, as a dataset of `simulate`.
+    """Return one period of the steady motion that a state leads to: a dataset as from `simulate`.
 
     The period begins at W T = pi/2. Raise ArithmeticError if the state leads to no periodic orbit.
     """
@@ -117,10 +117,10 @@ def run_chunks(work, count, workers, progress, stop, size=CHUNK):
 def settle_with(
     kernels, parameters, states, begins, settling, *, workers=1, progress=None, stop=None
 ):
-    """Run motions from states (m, 4) at times `begins` (m,); return an array of `records.MOTION`.
+    """Run m motions until their outcomes are known; return an array of m records (`MOTION`).
 
-    `kernels` is ONE_BY_ONE, to run one motion after the other, or `ensemble.SIDE_BY_SIDE`. The
-    other arguments are as in `ensemble.settle`.
+    The motions start in `states` (m, 4) at the times `begins` (m,). `kernels` is ONE_BY_ONE, to run
+    one motion after the other, or `ensemble.SIDE_BY_SIDE`. For the rest see `ensemble.settle`.
     """
     settle, follow = kernels
     bounds.check_count("workers", workers, most=4096)
@@ -150,7 +150,7 @@ def settle_with(
 
 @kernel
 def settle_each(parameters, states, start, tolerance, patience, limit, out, stop):
-    """Fill the records `out` as `ensemble.settle_many` does, but run the motions one by one."""
+    """Run motions as `ensemble.settle_many` does, but one after the other; fill records `out`."""
     work, ring = workspace(), np.empty((RING, 4))
     seen, tangent = np.empty(1, SEEN), np.empty((1, 4))
     for i in range(len(out)):
@@ -168,5 +168,5 @@ def settle_each(parameters, states, start, tolerance, patience, limit, out, stop
         assign(out[i].state, y)
 
 
-# Two kernels for `settle_with`: the first settles motions, the second runs them for more cycles.
+# Kernels that run motions one after the other: until they settle, or for a number of cycles.
 ONE_BY_ONE = settle_each, follow_each

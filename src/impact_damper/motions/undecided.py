@@ -1,10 +1,10 @@
-"""Run undecided motions longer, until their outcome is certain.
+"""Run undecided motions longer, to find their outcome.
 
-The strobe states of a quasi-periodic motion lie on n closed curves, every n-th state on one curve.
-The rotation number is the mean advance along a curve in n cycles. Here the mean over N states is
-weighted. The weights fall so smoothly to 0 at both ends that the mean converges faster than any
-power of 1/N (S. Das, Y. Saiki, E. Sander and J. A. Yorke, Nonlinearity 30, 4111-4140, 2017). For a
-chaotic motion the mean converges only as N^(-1/2).
+The strobe states of a quasi-periodic motion lie on n closed curves. Every n-th state lies on the
+same curve. The rotation number is the mean advance along a curve in n cycles. Here the mean over N
+states is weighted. The weights of the first and last states fall so smoothly to 0 that the mean
+converges faster than any power of 1/N (S. Das, Y. Saiki, E. Sander and J. A. Yorke, Nonlinearity
+30, 4111-4140, 2017). For a chaotic motion the mean converges only as N^(-1/2).
 """
 
 import math
@@ -20,27 +20,28 @@ from impact_damper.motions import records
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, one_period, polish
 from impact_damper.motions.watch import CONFIDENCE, LONGEST_PERIOD, NEAR, normalise
 
-# A motion is run in blocks. FIRST: largest number of forcing cycles in the first block. BATCHES:
-# number of batches in a block. The scatter of their means gives the standard error of the mean.
+# A motion is run in blocks. FIRST: largest number of forcing cycles in the first block.
+# BATCHES: number of batches in a block. The scatter of the batches' means gives standard errors.
 FIRST, BATCHES = 1500, 30
-# In a block a tangent of a chaotic motion grows by more than the factor exp(GROWN). A rounding
-# error that makes a motion leave an unstable orbit grows by less, about 1e16 = exp(37).
+# A motion is chaotic only if its tangent grows in a block by more than the factor exp(GROWN). While
+# a motion leaves an unstable orbit, a rounding error grows by less, about 1e16 = exp(37).
 GROWN = 40.0
 # A Lyapunov exponent counts as 0 if its modulus is at most NEUTRAL standard errors.
 NEUTRAL = 3.0
-# Newton's method. LONGEST: longest period in forcing cycles. REACH: bound on the change of a state.
+# LONGEST: longest period of an orbit that Newton's method looks for, in forcing cycles.
+# REACH: bound on the change of a state by Newton's method.
 LONGEST, REACH = 256, 1e-2
-# States lie on known closed curves if each is nearer than this to a known point of a curve.
+# A state lies on a known closed curve if it is nearer than this to a known point of the curve.
 NEIGHBOUR = 1e-3
 # Fields that are copied from a known quasi-periodic motion to a motion on the same closed curves.
 TORUS = ["outcome", "lyapunov_exponent", "lyapunov_error"]
 TORUS += ["first_frequency", "second_frequency", "frequency_error"]
-# Rotation number. AGREEMENT: largest accepted error. FEWEST: smallest number of points needed.
+# AGREEMENT: largest accepted error of a rotation number. FEWEST: smallest number of points for one.
 AGREEMENT, FEWEST = 1e-8, 100
-# Advances modulo 1 can be averaged only if some range of this width contains none of them.
+# Advances, in revolutions modulo 1, are averaged only if there is a range so wide without any.
 INTERVAL = 0.02
-# Points in their order along a curve. TURN: largest change of the angle from point to point, in
-# revolutions. WANDERING: largest sum of the moduli of these changes.
+# TURN: largest change of the angle between neighbouring points of a closed curve, in revolutions.
+# WANDERING: largest sum of the moduli of these changes along the whole curve.
 TURN, WANDERING = 0.05, 3.0
 
 
@@ -67,7 +68,7 @@ def run_block(p, y, tangent, states, growth, stop):
 
 
 def name_undecided(parameters, motions, limit, further, stop):
-    """Continue the forced motions that `settle_many` left unresolved; complete their records.
+    """Continue the forced motions that have the outcome UNRESOLVED; complete their records.
 
     A motion runs in blocks, each twice as long as the last, for at most `further` cycles in all.
     """
@@ -82,7 +83,7 @@ def name_undecided(parameters, motions, limit, further, stop):
 
 
 class _Curves(NamedTuple):
-    """Closed curves of a quasi-periodic motion at the strobe. `states` are points of the curves."""
+    """The closed curves on which the strobe states of a quasi-periodic motion lie."""
 
     parameters: np.ndarray
     states: np.ndarray
@@ -90,7 +91,7 @@ class _Curves(NamedTuple):
 
 
 def _name_one(p, record, limit, further, known, stop):
-    """Continue a motion and complete `record`, an array of length 1; return the last states."""
+    """Continue one motion and complete its record. Return the states of its last block."""
     y, tangent = record["state"][0].copy(), np.full((1, 4), 0.5)
     period, count = 2 * math.pi / p[FREQUENCY], min(limit, FIRST)
     states = np.empty((LONGEST_PERIOD, 4))
@@ -126,7 +127,7 @@ def _name_one(p, record, limit, further, known, stop):
 
 
 def _is_known(record, known, states):
-    """Return whether the states lie on known closed curves; if so, complete the record."""
+    """Return whether all states lie on known closed curves; if so, complete the record."""
     for curves in known:
         apart = np.abs(states[:, None, :3] - curves.states[None, :, :3]).max(axis=2)
         if np.max(np.min(apart, axis=1)) < NEIGHBOUR:
@@ -137,27 +138,26 @@ def _is_known(record, known, states):
 
 
 def _exponent(growth):
-    """Return the mean of `growth`, and the standard error of this mean from BATCHES batches."""
+    """Return the mean of `growth` and its standard error."""
     length = len(growth) // BATCHES
     batches = growth[-BATCHES * length :].reshape(BATCHES, length).mean(axis=1)
     return np.mean(batches), np.std(batches, ddof=1) / math.sqrt(BATCHES)
 
 
 def _grows(growth, mean, error):
-    """Return whether a tangent certainly grows in a block, and still in the last quarter."""
     lasting = np.mean(growth[-len(growth) // 4 :]) > mean / 2
     return lasting and mean > CONFIDENCE * error and np.sum(growth) > GROWN
 
 
 def _on_orbit(p, record, states, contacts, limit):
-    """Move a motion onto a stable orbit nearby; return the outcome, UNRESOLVED if none is found."""
+    """Look for a stable orbit near the last state; return the outcome, UNRESOLVED without one."""
     last, components = states[-1], 2 if contacts == 0 else 3
     before = states[-2 : -2 - LONGEST : -1]
     near = np.max(np.abs(before - last)[:, :components], axis=1) < NEAR
     for n in np.flatnonzero(near) + 1:
         y, n = last.copy(), int(n)
         found, residual, multiplier = polish(p, y, n, REACH, POLISH_TOLERANCE)
-        # The periods n ascend, so the first orbit found is found with its smallest period.
+        # The periods n ascend, so n is the smallest period of the first orbit found.
         if not found or abs(multiplier) >= 1:
             continue
         duration = n * 2 * math.pi / p[FREQUENCY]
@@ -193,7 +193,7 @@ def _quasi_periodic(p, record, states, mean, error):
 
 
 def birkhoff_average(values):
-    """Return a weighted mean. Its weights are exp(-1/(t (1 - t))), where t goes from 0 to 1."""
+    """Return the mean of values with the weights exp(-1/(t (1 - t))); t rises from 0 to 1."""
     t = np.arange(1, len(values) + 1) / (len(values) + 1)
     weights = np.exp(-1 / (t * (1 - t)))
     return np.sum(weights * values) / np.sum(weights)
@@ -202,10 +202,11 @@ def birkhoff_average(values):
 def find_rotation(points):
     """Return the rotation number of points (complex numbers) on a closed curve, and its error.
 
-    The rotation number (revolutions, 0 to 1/2) is the mean advance of the angle around the mean
-    point. The curve is first stretched until its spread is equal in all directions, because on a
-    slender curve the angle advances mainly at both tips. The error is the largest difference of
-    rotation numbers from three parts of the points. Return None if no closed curve is recognised.
+    The rotation number (0 to 1/2) is the mean advance from point to point of the angle around the
+    mean point, in revolutions. First the curve is stretched until its spread is equal in all
+    directions, because on a slender curve the angle advances mainly at both tips. Rotation numbers
+    are also computed from three parts of the points. The error is the largest difference of these
+    three. Return None if no closed curve is recognised.
     """
     if len(points) < FEWEST:
         return None
@@ -228,7 +229,6 @@ def find_rotation(points):
 
 
 def _rounded(points):
-    """Return points minus their mean, stretched until the spread is equal in all directions."""
     apart = points - birkhoff_average(points)
     plane = np.stack([apart.real, apart.imag])
     spread, axes = np.linalg.eigh(plane @ plane.T)
@@ -237,7 +237,7 @@ def _rounded(points):
 
 
 def _goes_around_once(angle, number):
-    """Return whether the angle of points, in their order along the curve, makes one smooth turn."""
+    """Return whether the angle makes one smooth turn from point to point along the curve."""
     order = np.argsort(np.arange(len(angle)) * number % 1)
     turns = np.diff(angle[order], append=angle[order[0]])
     turns -= np.round(turns)

@@ -1,9 +1,9 @@
 """Judge once in each forcing cycle whether a motion has settled to an orbit or is chaotic.
 
 Near an orbit of period n the distances between states n cycles apart decrease geometrically. The
-sum of all further distances estimates how far away the orbit is. If the sum is small, Newton's
-method looks for a stable orbit close by. In a slow passage near a fold, which can look like an
-orbit, the sum is large. If the sum is between NEAR and 0.01, `is_linear` must also hold.
+sum of all distances still to come estimates how far the motion is from the orbit. If the sum is
+small, Newton's method looks for a stable orbit close by. A slow passage near a fold can look like
+an orbit, but its sum is large. If the sum is above NEAR, the function `is_linear` must agree.
 """
 
 import math
@@ -24,27 +24,31 @@ from impact_damper.motions.strobe_map import (
     speed_weight,
 )
 
-# LONGEST_PERIOD: longest period of an orbit in forcing cycles. RING: number of strobe states kept.
+# LONGEST_PERIOD: longest period of an orbit that is looked for, in forcing cycles.
+# RING: number of states that are stored, those at the last strobes.
 LONGEST_PERIOD = 12
 RING = 2 * LONGEST_PERIOD + 1
 # A motion is chaotic if its Lyapunov exponent exceeds CONFIDENCE standard errors. An exponent below
 # WEAK, in units of 1/T, is judged only at the end of a run.
 CONFIDENCE, WEAK = 4.0, 0.05
-# The growth of a tangent is measured in batches of BLOCK forcing cycles. If there is chaos, the
-# tangent must still grow in the last RECENT batches.
+# The growth of a tangent is measured in batches of BLOCK forcing cycles. A motion is chaotic only
+# if the tangent still grows in the last RECENT batches.
 BLOCK, RECENT = 10, 5
-# Newton's method is tried below the distance NEAR from an orbit. After each failure this distance
-# is divided by 10, down to NEAREST.
+# Newton's method is tried when a motion is nearer to an orbit than the distance NEAR. After each
+# failure the distance is divided by 10, down to NEAREST.
 NEAR, NEAREST = 1e-4, 1e-9
-# Newton's method is also tried at the larger distances EARLY, if the last RETURNS distances between
-# states a period apart have decreased. NONLINEAR, APPROACH: see `is_linear`.
+# EARLY: larger distances at which Newton's method is tried if RETURNS successive distances between
+# states a period apart decrease. NONLINEAR, APPROACH: see `is_linear`.
 EARLY, RETURNS, NONLINEAR, APPROACH = (1e-2, 1e-3), 4, 0.1, 1000
-# Without forcing, a motion is at rest if its energy is at most this fraction of its first energy.
+# Without forcing, a motion is at rest if its energy is at most REST times the energy at the start.
 REST = 1e-9
-# Data of one motion while it runs. untouched: forcing cycles since the last contact. near, early:
-# distances at which Newton's method is tried next. periods: number of cycles with a tangent. batch:
-# logarithm of the tangent's growth in this batch. mean: mean of `batch` over complete batches.
-# squares: sum of squared deviations from `mean`. recent: `batch` of the last complete batches.
+# Data of one motion while it runs.
+# untouched      forcing cycles since the last contact
+# near, early    distances from an orbit at which Newton's method is tried next
+# periods        forcing cycles in which the growth of a tangent was measured
+# batch          logarithm of the tangent's growth in the present batch, so far
+# mean, squares  mean of `batch` over complete batches; sum of squared deviations from this mean
+# recent         values of `batch` at the ends of the last RECENT batches
 SEEN = np.dtype(
     [(name, "i8") for name in ("index", "strobes", "untouched", "periods")]
     + [(name, "f8") for name in ("near", "early", "energy", "batch", "mean", "squares")]
@@ -54,7 +58,7 @@ SEEN = np.dtype(
 
 @kernel_only
 def normalise(tangent):
-    """Scale a tangent to the length 1, and return the logarithm of its growth."""
+    """Scale a tangent to the length 1; return the logarithm of its length before."""
     size = 0.0
     for i in range(4):
         size += tangent[i] ** 2
@@ -66,7 +70,7 @@ def normalise(tangent):
 
 @kernel_only
 def follow_tangent(tangent, growth):
-    """Normalise a tangent after a forcing cycle; add the logarithm of its growth to the batch."""
+    """Add a tangent's growth in a forcing cycle to the data `growth` (SEEN); scale the tangent."""
     growth.batch += normalise(tangent)
     growth.periods += 1
     if growth.periods % BLOCK == 0:
@@ -80,7 +84,7 @@ def follow_tangent(tangent, growth):
 
 @kernel
 def exponent(growth):
-    """Return the mean growth of a tangent in a batch, its error, and whether it still grows."""
+    """Return the mean growth of a tangent in a batch, the mean's error, and if growth continues."""
     count = growth.periods // BLOCK
     recent = 0.0
     for i in range(RECENT):
@@ -91,9 +95,9 @@ def exponent(growth):
 
 @kernel_only
 def nearby_period(ring, k, weight, floor, tolerance):
-    """Return the period of an orbit that seems to be within `tolerance` of the motion, or 0.
+    """Return the period of an orbit that seems to be nearer than `tolerance`; 0 without an orbit.
 
-    `ring[k % RING]` is the last of k + 1 strobe states. `floor` is the error of the integration.
+    ring[k % RING] is the state at strobe number k. `floor` is the error of the integration.
     """
     last = ring[k % RING]
     for n in range(1, LONGEST_PERIOD + 1):
@@ -117,8 +121,8 @@ def move_onto_orbit(p, y, periods, near, out):
 
     A motion that spirals towards an orbit may seem to repeat only after a multiple of the orbit's
     period. So the divisors of `periods` are tried first. Newton's method can fail near a grazing
-    contact. If it does, and `near` is NEAREST, the motion itself counts as the orbit. Residual and
-    multiplier are then NaN.
+    contact. If it fails at the smallest distance from an orbit (`near` is NEAREST), the motion
+    itself counts as the orbit, and residual and multiplier in `out` are NaN.
     """
     multiplier = complex(np.nan, np.nan)
     for n in range(1, periods + 1):
@@ -137,7 +141,7 @@ def move_onto_orbit(p, y, periods, near, out):
 
 @kernel_only
 def approaches(ring, k, n, weight):
-    """Return whether the last RETURNS distances between states n cycles apart have decreased."""
+    """Return whether the last RETURNS distances between strobe states n cycles apart decrease."""
     before = 0.0
     for j in range(RETURNS):
         if k < (j + 1) * n or (j + 1) * n >= RING:
@@ -155,11 +159,12 @@ def is_linear(p, y, ring, k, n, weight):
 
     y is a state of the orbit, n its period. In a period a difference e from the orbit becomes
     M e + r, with a matrix M and |r| <= c |e|^2. The number c is measured in the last two periods.
-    c times the sum of |e| over at most APPROACH further periods must not exceed NONLINEAR. In
-    longer runs none of 7 000 accepted motions left its orbit: at most 0.05 % do (95 % confidence).
+    c times the sum of |e| over at most APPROACH further periods must not exceed NONLINEAR. Of
+    7 000 motions that passed this test none left its orbit later. So at most 0.05 % of such motions
+    do (95 % confidence).
     """
     _, matrix, contacts = period_map(p, y, n, POLISH_TOLERANCE)
-    # A loose mass that drifts slowly may still reach a wall.
+    # A loose mass that has touched no wall in the period, but drifts, may touch one later.
     if contacts == 0 and p[CLEARANCE] < math.inf:
         return False
     apart, ahead, none = np.zeros((3, 4)), np.zeros(4), np.zeros(4)
@@ -185,7 +190,7 @@ def is_linear(p, y, ring, k, n, weight):
 
 @kernel_only
 def push_forward(matrix, apart, ahead):
-    """Set `ahead` to `matrix` times `apart`: the difference from an orbit one period later."""
+    """Write the product of `matrix` and the vector `apart` into `ahead`."""
     for i in range(4):
         ahead[i] = 0.0
         for j in range(4):
@@ -194,7 +199,7 @@ def push_forward(matrix, apart, ahead):
 
 @inlined
 def leave_transient(p, out):
-    """Replace the Lyapunov exponent of the transient by the exponent of the orbit in `out`."""
+    """Set the Lyapunov exponent in the record `out` of a settled motion to that of the orbit."""
     duration = out.period * 2.0 * math.pi / p[FREQUENCY]
     out.lyapunov_exponent = math.log(abs(out.multiplier)) / duration
     out.lyapunov_error = 0.0 if out.lyapunov_exponent < 0.0 else np.nan
@@ -202,7 +207,7 @@ def leave_transient(p, out):
 
 @kernel_only
 def stays_without_contact(p, y, ring, k, out):
-    """Move the primary mass onto a stable orbit without contacts; return whether one is near."""
+    """Move the primary mass onto a stable orbit without contacts, if one is near; return if so."""
     for n in range(1, min(k, LONGEST_PERIOD) + 1):
         before = ring[(k - n) % RING]
         if max(abs(y[0] - before[0]), abs(y[1] - before[1])) < NEAR:
@@ -216,7 +221,7 @@ def stays_without_contact(p, y, ring, k, out):
 
 @inlined
 def begin_watch(seen, index, out):
-    """Reset `seen` and the record `out` before the motion `index` is run."""
+    """Reset the data `seen` and the record `out` before motion number `index` is run."""
     seen.index, seen.strobes, seen.untouched, seen.near = index, 0, 0, NEAR
     seen.early = EARLY[0]
     seen.periods, seen.batch, seen.mean, seen.squares = 0, 0.0, 0.0, 0.0
@@ -229,7 +234,7 @@ def begin_watch(seen, index, out):
 
 @kernel_only
 def watch_free(p, y, seen, out):
-    """Judge an unforced motion as `watch` does; replace a state near rest by exact rest."""
+    """Return whether an unforced motion has come to rest. If so, set its state y to exact rest."""
     left = energy(p, y)
     if seen.strobes == 0:
         seen.energy = left
@@ -246,15 +251,14 @@ def watch_free(p, y, seen, out):
 def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit, out):
     """Judge a motion at a strobe, complete its record `out`, and return whether it is stopped.
 
-    A motion is stopped
+    A motion is stopped after `limit` cycles, or earlier with one of these outcomes:
 
-    - when it has settled, diverged or escaped, or after `limit` cycles;
-    - as at_rest if there is no forcing and hardly any energy is left (REST);
-    - as non_colliding if it has settled without contacts;
-    - as non_colliding if the primary mass is on an orbit, and the loose mass has touched no wall
-      for `patience` cycles and drifts by less than 1 % of the clearance in `limit` cycles; if it
-      drifts faster, as drifting after `limit` cycles;
-    - as chaotic after `patience` cycles if the largest Lyapunov exponent exceeds CONFIDENCE
+    - settled, diverged or escaped;
+    - at_rest, if there is no forcing and hardly any energy is left (REST);
+    - non_colliding, if it has settled without contacts, or if the primary mass is on an orbit, the
+      loose mass has touched no wall for `patience` cycles, and it drifts by less than 1 % of the
+      clearance in `limit` cycles. If it drifts faster, the outcome after `limit` is drifting;
+    - chaotic, after `patience` cycles, if the largest Lyapunov exponent exceeds CONFIDENCE
       standard errors and the tangent still grows. A slow spiral can look like weak chaos, so an
       exponent below WEAK is judged just before `limit`.
 
