@@ -1,1 +1,1 @@
-"""The claims of the paper, the evidence on each claim (numbers), and the verdicts."""
+"""The claims of the paper, the numbers that test each claim, and the verdicts on them."""

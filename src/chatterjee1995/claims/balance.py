@@ -1,4 +1,4 @@
-"""Evidence on claims 1 to 3, by harmonic balance and exact orbits. Wp is the peak frequency."""
+"""Numbers that test claims 1 to 3, by harmonic balance and exact orbits. Wp: peak frequency."""
 
 import numpy as np
 import pandas as pd
@@ -14,7 +14,7 @@ ALL_DESIGNS = (*reading.CAPTIONS, *reading.RULES)  # names of all designs of fig
 
 
 def small_motion(datasets):
-    """Return the evidence on claim 1: near rm W^2 d0 = 1 a small stable motion exists."""
+    """Return numbers that test claim 1: a small stable motion exists if rm W^2 d0 is close to 1."""
     designs = reading.select(datasets, "harmonic_balance", reading.RULES)
     vanishing = []
     for design in designs:
@@ -41,7 +41,7 @@ def small_motion(datasets):
 
 
 def rigid_against_elastic(datasets):
-    """Return the evidence on claim 2: (14) and (7) predict the same large amplitudes."""
+    """Return numbers that test claim 2: equations (7) and (14) give the same large amplitudes."""
     designs = reading.damped(datasets, "harmonic_balance").values()
     if not designs:
         raise Missing("There is no dataset of the stage harmonic_balance with a damper")
@@ -66,7 +66,7 @@ def rigid_against_elastic(datasets):
 
 
 def quiet_and_high(datasets):
-    """Return the evidence on claim 3: quiet motions around Wp, violent motions below the band."""
+    """Return numbers that test claim 3: motions are quiet near the resonance, violent below it."""
     around, beside, found = [], [], []
     for design in reading.select(datasets, "harmonic_balance", ALL_DESIGNS):
         peak = float(design.peak_frequency)
@@ -87,7 +87,6 @@ def quiet_and_high(datasets):
 
 
 def _elastic_orbits(datasets):
-    """Return the part of the evidence on claim 3 from the simulated curves with elastic contact."""
     around, beside, pairs, single = [], [], [], []
     for name in reading.ELASTIC:
         branches, free = orbits.of_curve(datasets, name)
@@ -111,13 +110,15 @@ def _elastic_orbits(datasets):
 
 
 def design_multipliers(datasets):
-    """Return for each design of figure 3 the largest modulus of a multiplier of its quiet orbit."""
+    """Return the largest modulus of the multipliers of the exact quiet orbit, for each design.
+
+    The designs are those of figure 3. The orbit is taken at the peak frequency of the design.
+    """
     followed = reading.select(datasets, "design_orbit", ALL_DESIGNS)
     return np.array([reading.largest_multiplier(reading.design_point(each)) for each in followed])
 
 
 def _design_orbits(datasets):
-    """Return the part of the evidence on claim 3 that comes from the designs of figure 3."""
     multipliers = design_multipliers(datasets)
     followed = reading.select(datasets, "design_orbit", ALL_DESIGNS)
     unstable = [each for each, size in zip(followed, multipliers, strict=True) if not size < 1]

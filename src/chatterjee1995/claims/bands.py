@@ -1,4 +1,4 @@
-"""Evidence on claims 4, 16 and 17: the width of the suppression band, and amplitudes in it."""
+"""Numbers that test claims 4, 16 and 17, on the suppression band and the amplitudes in it."""
 
 import itertools
 
@@ -13,7 +13,7 @@ from impact_damper.data.datasets import oscillator_of
 
 
 def widening(datasets):
-    """Return the evidence on claim 4: larger omega_l, larger rm and smaller e widen the band."""
+    """Return numbers that test claim 4: larger omega_l, larger rm and lower e widen the band."""
     stiffer, heavier = (
         [reading.select(datasets, "harmonic_balance", names) for names in series]
         for series in ((reading.CAPTIONS, reading.RULES), (reading.BY_MASS,))
@@ -38,7 +38,6 @@ def widening(datasets):
 
 
 def _growth(series, width):
-    """Return the smallest ratio of `width(design)` to the width of the design before it."""
     return min(
         float(width(after) / width(before))
         for designs in series
@@ -47,7 +46,7 @@ def _growth(series, width):
 
 
 def _remaining(datasets, names):
-    """Return for each design how large its quiet orbit at Wp is, relative to the free resonance."""
+    """Return max |Z1| of the exact quiet orbit of each design, relative to the free resonance."""
     return [
         float(reading.design_point(orbit).orbit_displacement)
         / orbits.resonance_fold(orbits.free_of(datasets, orbit))[1]
@@ -56,7 +55,7 @@ def _remaining(datasets, names):
 
 
 def accuracy(datasets):
-    """Return the evidence on claim 16: harmonic balance predicts the band and amplitudes in it."""
+    """Return numbers that test claim 16: harmonic balance predicts the band and its amplitudes."""
     widths, shares, factors, harmonics = [], [], [], []
     for name in reading.ELASTIC:
         design = reading.get(datasets, "harmonic_balance", name)
@@ -82,12 +81,11 @@ def accuracy(datasets):
 
 
 def _factor(one, other):
-    """Return the ratio of two positive numbers, the larger divided by the smaller."""
     return max(one / other, other / one)
 
 
 def amplitude_by_mass(datasets):
-    """Return the evidence on claim 17: a larger rm lowers the amplitude in the band."""
+    """Return numbers that test claim 17: a heavier loose mass lowers the amplitude in the band."""
     designs = reading.select(datasets, "harmonic_balance", reading.BY_MASS)
     edges = np.array([reading.band_edges(design) for design in designs])
     parts = [reading.within(each, edges[:, 0].max(), edges[:, 1].min()) for each in designs]
@@ -109,7 +107,6 @@ def amplitude_by_mass(datasets):
 
 
 def _elastic_sweeps(datasets, design):
-    """Return the clearance sweeps with e = 1 that have the oscillator of a design, sorted by rm."""
     found = [
         sweep
         for sweep in datasets.get("optimum", {}).values()

@@ -1,4 +1,4 @@
-"""A claim of the paper, read from `claims.yaml`, and its verdict, computed from datasets."""
+"""The class `Claim`, a claim of the paper. Its verdict is computed from datasets."""
 
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -18,12 +18,12 @@ NOT_DECIDABLE = "not decidable"
 
 
 def part(share, digits=2) -> str:
-    """Return a share as text: "all", "none" or a percentage."""
+    """Return a share from 0 to 1 as text: "all", "none" or a percentage."""
     return {1.0: "all", 0.0: "none"}.get(float(share)) or percent(share, digits)
 
 
 def rounding(distance) -> str:
-    """Return "a right rounding" if `distance`, an error by `misrounding`, is at most 1."""
+    """Return "a right rounding" if an error, in half units of the last digit, is at most 1."""
     return "a right rounding" if distance <= 1 else "not a rounding"
 
 
@@ -39,7 +39,7 @@ SENTENCES.tests["known"] = lambda value: not math.isnan(value)
 
 
 class Bound(NamedTuple):
-    """The range in which a number of a claim's evidence must lie."""
+    """The range from `least` to `most` in which the number called `name` must lie."""
 
     name: str
     least: float
@@ -47,14 +47,14 @@ class Bound(NamedTuple):
 
     @classmethod
     def read(cls, text):
-        """Read a bound from a text such as "size <= 0.05", "1 <= stable" or "0.9 <= x <= 1.1"."""
+        """Return the bound that a text states, such as "size <= 0.05" or "0.9 <= x <= 1.1"."""
         parts = text.split(" <= ")
         (name,) = (each for each in parts if each.isidentifier())
         least, most = parts[: parts.index(name)], parts[parts.index(name) + 1 :]
         return cls(name, *map(float, least or [-math.inf]), *map(float, most or [math.inf]))
 
     def holds(self, values) -> bool | None:
-        """Return whether the number lies in the range, or None if the number is NaN."""
+        """Return whether the number in the dict `values` is in the range, or None if it is NaN."""
         value = values[self.name]
         return None if math.isnan(value) else self.least <= value <= self.most
 
@@ -68,14 +68,18 @@ class Bound(NamedTuple):
 
 @dataclass(frozen=True)
 class Claim:
-    """A statement of the paper. `number` is "1" to "19", or "S1" to "S6" (misprints, omissions).
+    """A statement of the paper, and the bounds that decide whether it is reproduced.
 
-    `evidence(datasets)` returns a dict of numbers, NaN if the data do not determine a number, or
-    raises `Missing`. `finding` is a template for these numbers, true for every verdict. `reading`
-    says how we read vague words. If a bound in `required` fails, the claim is not reproduced; if
-    only bounds in `full_agreement` fail, it is reproduced with a difference. Keys are bounds as
-    text, values what the number means (None: as for an earlier bound). `figures` are names, most
-    important first. `verdicts` is a dict: usual verdict -> words to print in its place.
+    `number` is "1" to "19" for claims, or "S1" to "S6" for misprints and omissions.
+    `evidence(datasets)` returns a dict of numbers, or raises `Missing`. A number is NaN if the
+    data do not determine it. `reading` says how vague words of the paper are read. `finding` is a
+    template for a text with the numbers, and fits every verdict.
+
+    `required` and `full_agreement` are dicts: bound as text -> meaning of the bounded number, or
+    None if an earlier bound gives the meaning. If a required bound fails, the claim is not
+    reproduced. If only bounds for full agreement fail, it is reproduced with a difference.
+    `figures` are names of figures, the most important first. `verdicts` is a dict: verdict ->
+    words that are printed in its place.
     """
 
     number: str
@@ -91,12 +95,12 @@ class Claim:
 
     @property
     def meanings(self) -> dict:
-        """A dict: name of a bounded number -> meaning of the number."""
+        """A dict: name of a number that has a bound -> meaning of the number."""
         texts = {**self.required, **self.full_agreement}
         return {Bound.read(bound).name: words for bound, words in texts.items() if words}
 
     def verdict(self, values) -> str:
-        """Return the verdict. NaN makes a claim not decidable, unless a required bound fails."""
+        """Return the verdict. A NaN makes it "not decidable", unless a required bound fails."""
         required, wished = (
             [Bound.read(text).holds(values) for text in bounds]
             for bounds in (self.required, self.full_agreement)
@@ -108,7 +112,7 @@ class Claim:
         return DIFFERENT if False in wished else REPRODUCED
 
     def criterion(self) -> str:
-        """Return a text that lists all bounds."""
+        """Return a text that lists the bounds of the claim and what the bounded numbers mean."""
         parts = []
         for lead, texts in (
             ("Required", self.required),
@@ -120,14 +124,14 @@ class Claim:
         return " ".join(parts)
 
     def sentences(self, values) -> str:
-        """Return the finding, or, if the claim is not decidable, a list of the unknown numbers."""
+        """Return the finding as text, or, if the claim is not decidable, the unknown numbers."""
         if self.verdict(values) != NOT_DECIDABLE:
             return " ".join(SENTENCES.from_string(self.finding).render(values).split())
         unknown = [words for name, words in self.meanings.items() if math.isnan(values[name])]
         return f"The data do not determine: {'; '.join(unknown)}."
 
     def judge(self, datasets) -> dict:
-        """Return the claim's row in the table of claims."""
+        """Return the row of this claim in the table of claims, as a dict."""
         try:
             values = self.evidence(datasets)
             verdict, finding = self.verdict(values), self.sentences(values)

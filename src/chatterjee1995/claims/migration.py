@@ -1,4 +1,4 @@
-"""Evidence on claims 12 to 14 and 19: migration. A release switches the damper off."""
+"""Numbers that test claims 12 to 14 and 19, on migration. A release switches the damper off."""
 
 import numpy as np
 
@@ -10,21 +10,21 @@ from impact_damper.data.sweeps import runs_of_true
 
 
 def any_phase(datasets):
-    """Return the evidence on claim 12: at W = 1.95 all releases lead to the small free motion."""
+    """Return numbers that test claim 12: at W = 1.95 all releases lead to the small free motion."""
     case = reading.get(datasets, "migration", "figure_13")
     quiet, unsettled = (_release_shares(case, kind) for kind in ("quiet", "unsettled"))
     return {"quiet": min(quiet, default=np.nan), "unsettled": min(unsettled, default=np.nan)}
 
 
 def _release_shares(case, kind, free_motion="non_resonance"):
-    """Return the share of releases to `free_motion` for each motion of `kind` "quiet" and so on."""
+    """Return the share of releases that lead to `free_motion`, for each damped motion of a kind."""
     rows = case.damped_kind.values == flag("released_from", kind)
     shares = case.release_share.sel(free_motion=free_motion, bound="share").values[rows]
     return shares[np.isfinite(shares)]
 
 
 def release_phase(datasets):
-    """Return the evidence on claim 13: at W = 1.7 the phase of release selects period 1 or 3."""
+    """Return numbers that test claim 13: at W = 1.7 the next motion depends on the release phase."""
     case = reading.get(datasets, "migration", "figure_15")
     frequency = reading.parameter(case, "frequency")
     lower, upper = orbits.subharmonic_range(orbits.free_of(datasets, case))
@@ -42,10 +42,10 @@ def release_phase(datasets):
 
 
 def _scanned(datasets, case):
-    """Return a dict: W -> whether the phase of release decides which motion follows.
+    """Return a dict: frequency W -> whether the phase of release decides which motion follows.
 
-    The phase decides if some releases from one quiet motion lead to the non-resonance motion and
-    others to the subharmonic. Only release scans of the oscillator and damper of `case` are read.
+    It decides if some releases from a quiet motion lead to the non-resonance motion, and others
+    to the subharmonic. Only release scans with the oscillator and damper of `case` are read.
     """
     wanted = oscillator_of(case), damper_of(case)
     found = {}
@@ -60,7 +60,10 @@ def _scanned(datasets, case):
 
 
 def _nearest_range(decides, frequency):
-    """Return the ends of the range of W with `decides` true that is nearest to `frequency`."""
+    """Return the ends of the range of W, nearest to `frequency`, in which `decides` is true.
+
+    `decides` is a dict: W -> whether the phase of release decides which motion follows.
+    """
     scanned = list(decides)
     ends = [
         (scanned[first], scanned[last - 1]) for first, last in runs_of_true(list(decides.values()))
@@ -73,7 +76,7 @@ def _nearest_range(decides, frequency):
 
 
 def total_cycles(datasets):
-    """Return the evidence on claim 14: runs reach the small free motion within 350 cycles."""
+    """Return numbers that test claim 14: migration takes at most 350 cycles."""
     if not datasets.get("migration"):
         raise Missing("There is no dataset of the stage migration")
     cases = [
@@ -97,7 +100,7 @@ def total_cycles(datasets):
 
 
 def early_release(datasets):
-    """Return the evidence on claim 19: at W = 1.85 an early release leads to period 3."""
+    """Return numbers that test claim 19: at W = 1.85 an early release leads to period 3."""
     case = reading.get(datasets, "migration", "figure_16")
     counts = case.destination_count.sel(damped_motion="unsettled")
     shares = counts / counts.sum()
@@ -119,7 +122,7 @@ def early_release(datasets):
 
 
 def by_policy(datasets, case, policy):
-    """Return for a policy the share of runs at the goal, and the median cycles of all runs."""
+    """Return two numbers on a release policy: share of runs that succeed, median time in cycles."""
     damper, frequency = damper_of(case), reading.parameter(case, "frequency")
     names = "mass_ratio", "clearance", "restitution"
     for data in datasets.get("release_policies", {}).values():

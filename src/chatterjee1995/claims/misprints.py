@@ -1,4 +1,4 @@
-"""Evidence (numbers) on S1 to S6, the misprints and omissions of the paper."""
+"""Numbers that test S1 to S6, the places of the paper that may be misprints or omissions."""
 
 import math
 
@@ -17,13 +17,13 @@ SHALLOW = 0.02  # largest ratio of penetration to clearance at which the expansi
 
 
 def misrounding(printed, computed):
-    """Return the error of `printed` in half units of its last digit; 1 is still rightly rounded."""
+    """Return the error of a printed number in half units of its last digit (1 if just rounded)."""
     decimals = len(f"{printed:g}".partition(".")[2])
     return abs(printed - computed) * 2 * 10**decimals
 
 
 def penetration(datasets):
-    """Return the evidence on S1, the expansion of the paper's contact force B at small depth."""
+    """Return numbers that test S1: the printed expansion of the contact force B at small depth."""
     design = reading.get(datasets, "harmonic_balance", CAPTIONS[0])
     mass_ratio, clearance, stiffness = reading.parameters(
         design, "mass_ratio", "clearance", "contact_stiffness"
@@ -46,7 +46,7 @@ def penetration(datasets):
 
 
 def captions(datasets):
-    """Return the evidence on S2: clearances in the captions of figure 3, and by rule (19)."""
+    """Return numbers that test S2: the clearances printed with figure 3 follow from rule (19)."""
     numbers = {}
     for panel, *names in zip("ba", CAPTIONS[1:], RULES[1:], strict=True):
         designs = reading.select(datasets, "harmonic_balance", names)
@@ -57,13 +57,13 @@ def captions(datasets):
 
 
 def state_size(datasets):
-    """Return the evidence on S3: how many components the initial state of figure 4 has."""
+    """Return a number that tests S3: how many components the initial state of figure 4 has."""
     motion = reading.get(datasets, "motion", "figure_04")
     return {"components": sum(name in motion for name in STATE)}
 
 
 def design_point(datasets):
-    """Return the evidence on S4: whether d0 of figure 5 (a) fulfils rm W^2 d0 = 1 at W = 2."""
+    """Return numbers that test S4: at W = 2 the damper of figure 5 (a) fulfils rm W^2 d0 = 1."""
     design = reading.get(datasets, "harmonic_balance", CAPTIONS[0])
     mass_ratio, clearance = reading.parameters(design, "mass_ratio", "clearance")
     inertia = mass_ratio * PRINTED_PEAKS[0.215] ** 2
@@ -76,7 +76,7 @@ def design_point(datasets):
 
 
 def peaks(datasets):
-    """Return the evidence on S5: peak frequencies, printed, by formula and of exact orbits."""
+    """Return numbers that test S5: the peak frequencies that the paper prints."""
     free = {oscillator_of(each): each for each in reading.free(datasets, "branches").values()}
     found = []
     for damping, printed in PRINTED_PEAKS.items():
@@ -96,7 +96,7 @@ def peaks(datasets):
 
 
 def unprinted(datasets):
-    """Return the evidence on S6: the parameters that we chose because the paper prints none."""
+    """Return numbers that test S6: the values we chose for parameters that are not printed."""
     design = reading.get(datasets, "harmonic_balance", "figure_08")
     mass_ratio, clearance = reading.parameters(design, "mass_ratio", "clearance")
     sweeps = [

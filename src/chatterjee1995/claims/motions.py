@@ -1,4 +1,4 @@
-"""Evidence on claims 5 to 8 and 15: contacts, chaos and phases. Wp is the peak frequency."""
+"""Numbers that test claims 5 to 8 and 15, on contacts, chaos and phases. Wp: peak frequency."""
 
 import math
 
@@ -16,7 +16,7 @@ LOW = 0.3  # example of a low restitution in claim 15
 
 
 def quiet_contacts(datasets):
-    """Return the evidence on claim 5: the quiet motion has two symmetric impacts in a cycle."""
+    """Return numbers that test claim 5: the quiet motion has two symmetric impacts in a cycle."""
     shares, skew = [], []
     for name in ELASTIC:
         lower, upper = reading.band_edges(reading.get(datasets, "harmonic_balance", name))
@@ -30,7 +30,7 @@ def quiet_contacts(datasets):
 
 
 def high_and_chaotic(datasets):
-    """Return the evidence on claim 6: violent motions are chaotic or have more than two impacts."""
+    """Return numbers that test claim 6: violent motions have more than two impacts a cycle."""
     of = pd.DataFrame([_violent(datasets, name) for name in ELASTIC], index=ELASTIC)
     contacts, differences = (
         np.concatenate(of[name].tolist()) for name in ("contacts", "differences")
@@ -52,7 +52,6 @@ def high_and_chaotic(datasets):
 
 
 def _violent(datasets, name):
-    """Return the evidence on claim 6 from the datasets of one curve."""
     response = reading.get(datasets, "response", name)
     design = reading.get(datasets, "harmonic_balance", name)
     branches, free = orbits.of_curve(datasets, name)
@@ -73,14 +72,13 @@ def _violent(datasets, name):
 
 
 def phases(datasets):
-    """Return the evidence on claim 7: the masses move in antiphase below Wp, in phase above."""
+    """Return numbers that test claim 7: the masses are in antiphase below the peak, else in phase."""
     of = pd.DataFrame([_phases(datasets, name) for name in BY_MASS])
     turns = {key: of[key][(of[key] - 1).abs().idxmax()] for key in ("turn_balance", "turn")}
     return of.max().to_dict() | turns | {"highest": of.highest.min()}
 
 
 def _phases(datasets, name):
-    """Return the evidence on claim 7 from one damper, at computed frequencies above 0.75 Wp."""
     design = reading.get(datasets, "harmonic_balance", name)
     peak = float(design.peak_frequency)
     balance = reading.quiet_balance(design).sel(frequency=slice(0.75 * peak, None))
@@ -103,7 +101,7 @@ def _phases(datasets, name):
 
 
 def first_collisions(datasets):
-    """Return the evidence on claim 8: random starts in a ball of radius 2 lead to collisions."""
+    """Return numbers that test claim 8: random starts within a ball of radius 2 lead to impacts."""
     data = list(datasets.get("collisions", {}).values())
     if not data:
         raise Missing("There is no dataset of the stage collisions")
@@ -116,7 +114,7 @@ def first_collisions(datasets):
 
 
 def contact_model(datasets):
-    """Return the evidence on claim 15: the contact model is good for high e, fails for low e."""
+    """Return numbers that test claim 15: the contact model is good for high e, fails for low e."""
     used = [
         reading.parameter(data, "restitution")
         for stage in ("response", "optimum")
@@ -136,11 +134,11 @@ def contact_model(datasets):
 
 
 def _duration(restitution):
-    """Return how long a contact without other forces lasts, relative to an elastic contact."""
+    """Return the time of a contact without other forces, over the time of an elastic contact."""
     return 1 / math.sqrt(1 - damping_ratio(restitution) ** 2)
 
 
 def _pull_free_error(restitution):
-    """Return by which fraction the true restitution of a wall that cannot pull exceeds e."""
+    """Return the relative excess of the restitution over its nominal value if walls cannot pull."""
     damping = damping_ratio(restitution)
     return math.exp(2 * math.asin(damping) * damping * _duration(restitution)) - 1

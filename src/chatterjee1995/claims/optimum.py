@@ -1,4 +1,4 @@
-"""Evidence on claims 9 and 11. The optimum is the clearance d0 with the smallest max |Z1|."""
+"""Numbers that test claims 9 and 11, on the optimum: the clearance d0 with the least max |Z1|."""
 
 import itertools
 
@@ -14,7 +14,7 @@ AWAY = 0.1  # the rise of max |Z1| is read at (1 - AWAY) and (1 + AWAY) times th
 
 
 def excess(datasets):
-    """Return the evidence on claim 9: the optimum d0 is slightly above the prediction of (7)."""
+    """Return numbers that test claim 9: the optimum d0 is slightly above that of equation (7)."""
     groups = _sweeps(datasets, "damping", restitution=1)
     members = [sweep for group in groups.values() for sweep in group]
     over = [float(sweep.optimum_clearance / sweep.analytical_optimum) - 1 for sweep in members]
@@ -36,7 +36,10 @@ def excess(datasets):
 
 
 def _sweeps(datasets, *keys, **fixed):
-    """Group the clearance sweeps with the parameters `fixed` by the parameters named `keys`."""
+    """Return clearance sweeps in groups: a dict, values of the parameters `keys` -> sweeps.
+
+    Only sweeps whose parameters have the values `fixed` count, and groups of at least two sweeps.
+    """
     groups = {}
     for sweep in datasets.get("optimum", {}).values():
         if all(reading.parameter(sweep, key) == value for key, value in fixed.items()):
@@ -48,19 +51,18 @@ def _sweeps(datasets, *keys, **fixed):
 
 
 def _displaced(sweep):
-    """Return max |Z1| at a d0 that is 10 % off the optimum, on the worse side."""
+    """Return the larger max |Z1| of two: at d0 10 % below the optimum, and 10 % above."""
     ends = float(sweep.optimum_clearance) * np.array([1 - AWAY, 1 + AWAY])
     size = np.interp(ends, sweep.clearance, sweep.quiet_displacement, left=np.nan, right=np.nan)
     return float(np.max(size))
 
 
 def _rise(sweep):
-    """Return by which fraction max |Z1| rises if d0 is 10 % off the optimum."""
     return _displaced(sweep) / float(sweep.optimum_displacement) - 1
 
 
 def restitution(datasets):
-    """Return the evidence on claim 11: lower e widens the band and lowers the optimum d0."""
+    """Return numbers that test claim 11: a lower e widens the band and lowers the optimum d0."""
     names = (reading.BY_MASS[1], reading.INELASTIC)
     hard, soft = (suppression_band(datasets, name) for name in names)
     design = reading.get(datasets, "harmonic_balance", reading.BY_MASS[1])
@@ -83,7 +85,6 @@ def restitution(datasets):
 
 
 def _restitution_steps(group):
-    """Return ratios of optimum d0 and `_rise` for each step to a lower e. `overall`: all steps."""
     group = sorted(group, key=lambda sweep: -reading.parameter(sweep, "restitution"))
     return [
         {

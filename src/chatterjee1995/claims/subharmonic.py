@@ -1,17 +1,22 @@
-"""Evidence on claims 10 and 18: the one-third subharmonic with and without damper."""
+"""Numbers that test claims 10 and 18, on the one-third subharmonic with and without damper."""
 
 import numpy as np
 
 from chatterjee1995.reading import datasets as reading
 from chatterjee1995.reading import orbits
 
-# Names of curves with small loose masses, with a large loose mass, and with low damping h.
+# Curves with light dampers, with a heavy damper, and with low damping of the machine.
 LIGHT, HEAVY, LOW_DAMPING = reading.BY_MASS[:2], reading.BY_MASS[2], "figure_08"
 AS_LARGE = 0.95  # a subharmonic counts as unchanged if max |Z1| / (free max |Z1|) is at least this
 
 
 def _remaining(datasets, name):
-    """Return the widths in W with a stable subharmonic, and largest max |Z1| / (free max |Z1|)."""
+    """Return a dict about the stable orbits of a curve whose period is a multiple of 3.
+
+    `band` is the width of the suppression band. `in_band` is the width in W, within the band, with
+    such orbits. `between` is this width within the range of the free subharmonic. `ratio` is the
+    largest max |Z1| over max |Z1| of the free subharmonic, `ratio_in_band` the same in the band.
+    """
     branches, free = orbits.of_curve(datasets, name)
     part = orbits.stable_subharmonics(branches)
     edges = reading.band_edges(reading.get(datasets, "harmonic_balance", name))
@@ -26,7 +31,7 @@ def _remaining(datasets, name):
 
 
 def reappearance(datasets):
-    """Return the evidence on claim 10: only light dampers remove the subharmonic."""
+    """Return numbers that test claim 10: only a light damper removes the one-third subharmonic."""
     light = [_remaining(datasets, name) for name in LIGHT]
     heavy, low = _remaining(datasets, HEAVY), _remaining(datasets, LOW_DAMPING)
     return {
@@ -41,7 +46,7 @@ def reappearance(datasets):
 
 
 def by_damping(datasets):
-    """Return the evidence on claim 18: a damper reduces the subharmonic more at lower h."""
+    """Return numbers that test claim 18: the lower h, the more a damper reduces the subharmonic."""
     low, high = (_reduction(datasets, name) for name in (LOW_DAMPING, reading.BY_MASS[0]))
     return {
         "fall": low["fall"] / high["fall"],
@@ -54,11 +59,11 @@ def by_damping(datasets):
 
 
 def _reduction(datasets, name):
-    """Return how much a damper reduces the subharmonic, where it exists without the damper.
+    """Return a dict: how much the damper of a curve reduces the one-third subharmonic.
 
-    `fall` is the mean reduction of max |Z1| over W and starts. For a start that leads to no
-    subharmonic, max |Z1| counts as 0. `relative` is `fall` over the mean free max |Z1|. `unchanged`
-    is the share of the range of W in which a damper hardly reduces a stable subharmonic.
+    `fall` is the reduction of max |Z1|, averaged over W and starts. A start that leads to no
+    subharmonic counts as max |Z1| = 0. `relative` is `fall` over the mean max |Z1| without damper.
+    `unchanged` is the share of W at which a stable subharmonic is nearly as large as without.
     """
     branches, free = orbits.of_curve(datasets, name)
     ends = orbits.subharmonic_range(free)

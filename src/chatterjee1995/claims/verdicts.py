@@ -1,4 +1,4 @@
-"""All claims of the paper, the table of verdicts, and the Markdown page of the claims."""
+"""All claims of the paper, the table of verdicts on them, and the Markdown page of the claims."""
 
 import re
 from importlib.resources import files
@@ -50,17 +50,21 @@ _TEXTS = yaml.safe_load(files(__package__).joinpath("claims.yaml").read_text())
 CLAIMS = tuple(
     Claim(str(number), EVIDENCE[str(number)], **entry) for number, entry in _TEXTS["claims"].items()
 )
-# Regular expression that finds a symbol in plain text -> symbol on the page.
+# Pattern of a symbol in plain text -> symbol that replaces it on the page.
 PRINTED = {"omega_l": "ωl", r"\bpi\b": "π", r"\^2\b": "²", r"\bsqrt\b": "√", ">=": "≥"}
 
 
 def claims(datasets) -> pd.DataFrame:
-    """Return the table of verdicts. A claim whose datasets are missing is not decidable."""
+    """Return a table with the verdict on each claim."""
     return pd.DataFrame([claim.judge(datasets) for claim in CLAIMS])
 
 
 def document(frame, picture=None, drawn=None) -> str:
-    """Return the Markdown page of the claims, with `picture(name)` of each figure in `drawn`."""
+    """Return the Markdown page of the claims.
+
+    `frame` is the table of claims. `picture(name)` returns the Markdown text of a figure. Figures
+    that are not in `drawn` are left out; if `drawn` is None, all are shown.
+    """
     picture = picture or (lambda name: f"![{name}](../figures/{name}.png)")
     rows = frame.to_dict("records")
     for row in rows:
@@ -84,18 +88,17 @@ def document(frame, picture=None, drawn=None) -> str:
 
 
 def typeset(text) -> str:
-    """Return a text with its plain symbols replaced as in `PRINTED`."""
+    """Return a text in which plain symbols, such as "omega_l", are replaced by printed ones."""
     for plain, printed in PRINTED.items():
         text = re.sub(plain, printed, text)
     return text
 
 
 def title(number) -> str:
-    """Return the heading of the claim, misprint or omission with a number."""
+    """Return a heading for the number of a claim: "Claim 3", or "Misprint or omission S1"."""
     return f"Misprint or omission {number}" if number.startswith("S") else f"Claim {number}"
 
 
 def _tally(frame) -> str:
-    """Return a text that says how many claims have each verdict."""
     counts = frame["verdict"].value_counts()
     return ", ".join(f"{verdict} ({number})" for verdict, number in counts.items())

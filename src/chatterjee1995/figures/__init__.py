@@ -1,1 +1,1 @@
-"""One function for each kind of figure. It only draws: all numbers come from datasets."""
+"""Functions that draw figures, one for each kind of figure. All numbers come from datasets."""

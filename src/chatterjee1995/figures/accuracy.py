@@ -1,4 +1,4 @@
-"""Figure kind `accuracy`: errors of methods over floating-point operations, on scenes."""
+"""Figure of the errors of integrators and models over the floating-point operations they need."""
 
 from itertools import cycle
 
@@ -10,7 +10,7 @@ from chatterjee1995.methods.labels import colour_of, method_in_words
 from impact_damper.data.datasets import decode, parameters_of
 from impact_damper.plot import style
 
-# Name of a model of the module `orbit_models` -> colour, marker, line.
+# Model with which an orbit is computed -> colour, marker, line.
 MODELS = {
     "rigid": (style.GREY, "s", "none"),
     "rigid_mended": (style.GREY, "D", "none"),
@@ -21,7 +21,7 @@ MODELS = {
 }
 LOCATED = {True: ("^", "-"), False: ("v", ":")}  # method locates contacts -> marker, line
 OTHER_ORDERS = [("<", "--"), (">", "-."), ("d", ":")]  # marker, line of other Taylor orders
-# Quantity whose error is drawn -> its name in the dataset, label of the axis.
+# Quantity whose error is drawn -> variable of the dataset, label of the axis.
 QUANTITIES = {
     "amplitude": ("amplitude_error", r"Relative error of max $|Z_1|$"),
     "state": ("state_error", "Error of the state at the end"),
@@ -38,7 +38,7 @@ DOUBTFUL = "open: wrong number of contacts, or\nchaos within its standard error"
 
 @style.context()
 def draw_accuracy(*, accuracy):
-    """Draw errors over operations, a panel for each scene, a marker for each method."""
+    """Draw errors over floating-point operations, one panel for each scene."""
     drawn, panels = style.grid(len(accuracy), 2.4, 1.5)
     for axes, data in zip(panels, accuracy, strict=True):
         _panel(axes, data)
@@ -49,7 +49,6 @@ def draw_accuracy(*, accuracy):
 
 
 def _panel(axes, data):
-    """Draw the panel of one scene."""
     made = parameters_of(data)
     quantity, chaotic = made["accuracy"]["quantity"], made["motion"] == "chaotic"
     name, label = QUANTITIES[quantity]
@@ -88,7 +87,7 @@ def _panel(axes, data):
 
 
 def _errors(axes, data, quantity):
-    """Return errors and standard errors of averages in chaos. Shade the error of the reference."""
+    """Return relative errors of averages over chaotic motions, and their standard errors."""
     of = data.sel(statistic=quantity)
     truth = float(of["reference_average"])
     doubt = float(of["reference_average_error"]) / truth
@@ -97,7 +96,7 @@ def _errors(axes, data, quantity):
 
 
 def _method(axes, role, work, error, bars, good, bad):
-    """Draw a method's runs: open markers for `bad` runs and errors below their standard error."""
+    """Draw the runs of a method. Markers are open for `bad` runs and for errors below `bars`."""
     label, color, marker, line = role
     looks, ended = {"color": color, "markersize": 4}, good | bad
     if bars is None:
@@ -111,7 +110,7 @@ def _method(axes, role, work, error, bars, good, bad):
 
 
 def _roles(data):
-    """Return label, colour, marker and line of each method, in the order of the legend."""
+    """Return a dict in the order of the legend: method -> its label, colour, marker and line."""
     looks = {"taylor": (colour_of("taylor"), "o", "-")}
     further = sorted(set(data["method"].values) - {*runs_of_accuracy(), *MODELS})
     for name, look in zip(further, cycle(OTHER_ORDERS)):

@@ -17,7 +17,7 @@ PANELS = {
 ROUNDING = 1e-12  # smallest error by which `_guide` places its line; smaller errors are rounding
 FLOOR = 1e-16  # smallest error drawn
 GUIDE = {"color": style.GREY, "linewidth": 0.7, "linestyle": (0, (2, 1.5)), "zorder": 1}
-# Result of a cold start (Newton's method from the one-harmonic solution) -> text, marker.
+# How Newton's method ends if it starts from the one-harmonic solution -> text, marker.
 COLD = {
     "same_motion": ("(d): finds the same motion", {"marker": "o", "markerfacecolor": "none"}),
     "another_motion": ("(d): finds another motion", {"marker": "s", "markersize": 4.4}),
@@ -30,7 +30,7 @@ PARAMETERS = {
     "clearance": "Clearance, $d_0$",
     "restitution": "Coefficient of restitution, $e$",
 }
-# Verdict ("stable_absent": stable by harmonic balance, no such orbit) -> text, colour, hatching.
+# Verdict (what harmonic balance finds, what exists) -> text in the legend, colour, hatching.
 QUIET = {
     "stable_stable": ("rightly called stable", style.PALE_SKY, ""),
     "stable_unstable": ("called stable, orbit is unstable", style.VERMILION, "////"),
@@ -60,7 +60,7 @@ VIOLENT = {
 
 @style.context()
 def draw_harmonic_convergence(*, harmonic_convergence):
-    """Draw errors of max |Z1|, harmonics and multipliers, and the results of cold starts."""
+    """Draw three errors of harmonic balance over the highest harmonic, and which runs stall."""
     drawn = style.figure("double", 6.4)
     panels = drawn.subplots(2, 2, sharex=True)
     style.letter_panels(panels.flat)
@@ -75,7 +75,7 @@ def draw_harmonic_convergence(*, harmonic_convergence):
 
 
 def _draw_errors(axes, harmonics, measure):
-    """Draw one kind of error, its predicted decrease, and failed runs at the upper edge."""
+    """Draw one kind of error over the highest harmonic, its predicted decrease, and failed runs."""
     status = "hill_status" if measure == "multiplier" else "series_status"
     for index, data in enumerate(harmonics):
         at = data.sel(error_measure=measure)
@@ -91,7 +91,7 @@ def _draw_errors(axes, harmonics, measure):
 
 
 def _guide(data, at):
-    """Return the predicted decrease as a line, 3 times above the errors to leave them visible."""
+    """Return the points of a line with the predicted decrease, at 3 times the computed errors."""
     highest, error = data["highest_harmonic"].values, at["series_error"].values
     used = (highest >= data["asymptotic_harmonic"].item()) & (error > ROUNDING)
     if not used.any():
@@ -103,7 +103,6 @@ def _guide(data, at):
 
 
 def _draw_cold(axes, harmonics):
-    """Draw the result of each cold start, one row for each motion."""
     for index, data in enumerate(harmonics):
         highest, status = data["highest_harmonic"].values, decode(data["cold_status"]).values
         for meaning, (words, look) in COLD.items():
@@ -117,7 +116,6 @@ def _draw_cold(axes, harmonics):
 
 
 def _title(data, short=False):
-    """Return the parameters of a motion as text."""
     parameters = parameters_of(data)
     if not has_damper(data):
         return "free" if short else f"free, {style.parameter_label(parameters, 'frequency')}"
@@ -128,7 +126,7 @@ def _title(data, short=False):
 
 @style.context()
 def draw_balance_map(*, balance_map):
-    """Draw where harmonic balance is right about the quiet motion (a) and the violent one (b)."""
+    """Draw maps of where harmonic balance is right about quiet motions (a) and violent ones (b)."""
     (data,) = balance_map
     drawn = style.figure("double", 5.6)
     quiet, violent = drawn.subplots(1, 2, sharex=True, sharey=True)
@@ -152,7 +150,7 @@ def draw_balance_map(*, balance_map):
         ("left", "right"),
         strict=True,
     ):
-        # Blank entries make both legends begin at the same height.
+        # Blank entries give both legends the same height.
         blank = [Line2D([], [], linestyle="none")] * (longest - len(labels))
         place = f"outside lower {side}"
         drawn.legend(handles + blank, labels + [""] * len(blank), title=words, loc=place)
@@ -160,7 +158,6 @@ def draw_balance_map(*, balance_map):
 
 
 def _draw_classes(axes, data, name, classes):
-    """Draw each cell of the map in the colour and hatching of its verdict."""
     grid = data["frequency_ratio"].values, data["map_value"].values
     values = decode(data[name]).values
     for meaning, (label, color, hatch) in classes.items():
@@ -185,7 +182,7 @@ def _draw_edge(axes, verdict):
 
 
 def _draw_ends(axes, data):
-    """Draw where exact quiet orbits end, for walls of finite stiffness and for rigid walls."""
+    """Draw lines where exact quiet orbits cease to exist, for elastic and for rigid walls."""
     inside = decode(data["quiet_end_event"]) != "map_ends"
     for end in data["quiet_end"].where(inside).values.T:
         axes.plot(end, data["map_value"], color=style.BLACK, linewidth=1.6)

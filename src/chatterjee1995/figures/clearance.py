@@ -1,4 +1,4 @@
-"""Figures 6, 7 and 11 of the paper (best clearances), and figures of design rules and studies."""
+"""Figures of best clearances (6, 7 and 11 of the paper), of rules for them, and of studies."""
 
 from itertools import product
 
@@ -26,7 +26,7 @@ RULES = {
     "elastic": style.line("explicit, elastic contact", style.ORANGE),
     "flight": style.line("flight with corrections", style.BLACK, linewidth=1.8),
 }
-# Hatching of the cells in which not all motions with contacts have settled.
+# Hatching of map cells in which some motions with contacts have not settled.
 UNSETTLED = {"hatch": "////", "edgecolor": style.BLACK, "linewidth": 0}
 
 
@@ -41,7 +41,7 @@ def draw_optimum(*, optimum):
 
 @style.context()
 def draw_design_rules(*, design_rules):
-    """Draw best clearances and rules over each parameter, and the errors of the rules."""
+    """Draw best clearances over a parameter, clearances by rules, and the errors of the rules."""
     swept = [[name for name in SWEPT if data.sizes[name] > 1] for data in design_rules]
     sweeps = [
         (d, names[0]) for d, names in zip(design_rules, swept, strict=True) if len(names) == 1
@@ -79,7 +79,7 @@ def _draw_sweep(axes, data, name):
 
 
 def _draw_errors(axes, datasets):
-    """Draw the cumulative distribution of the errors of each rule, in per cent."""
+    """Draw the cumulative distribution of the relative errors of each rule for the clearance."""
     for rule, look in RULES.items():
         errors = np.concatenate(
             [
@@ -95,7 +95,7 @@ def _draw_errors(axes, datasets):
 
 @style.context()
 def draw_studies(*, studies):
-    """Map the largest displacement over mass ratio and clearance, by restitution and frequency."""
+    """Draw the largest displacement over mass ratio and clearance, for each e and frequency."""
     (data,) = studies
     pairs = list(product(data["restitution"].values, data["frequency"].values))
     rows, columns = data.sizes["restitution"], data.sizes["frequency"]
@@ -118,7 +118,6 @@ def draw_studies(*, studies):
 
 
 def _draw_study(axes, data, norm):
-    """Draw the map in one panel, and return its coloured cells."""
     plane = data["mass_ratio"].values, data["clearance"].values
     shown = mesh(axes, *plane, data["largest_displacement"].values.T, norm)
     settled = data["outcome_count"].sel(counted_outcome=["settled", "non_colliding"])

@@ -1,4 +1,4 @@
-"""Figure kind `contact_model`: errors of the contact model over restitution and load."""
+"""Figure of the errors of the contact model over restitution and load of a contact."""
 
 import numpy as np
 from matplotlib.colors import ListedColormap, LogNorm
@@ -12,7 +12,7 @@ from impact_damper.plot.maps import mesh
 RULES = {"zero_penetration": "exit at zero penetration", "no_tension": "exit without pull"}
 LEVELS = 0.01, 0.05  # errors with a contour line
 LINEAR = 1e-3  # the load axis is linear below this value and logarithmic above
-# Markers of contacts in the smallest and in the largest simulated motion.
+# Markers of the contacts in the smallest and in the largest simulated motions.
 MOTIONS = (
     {"color": style.BLACK, "marker": "o", "markersize": 2.6, "markerfacecolor": "none"},
     {"color": style.VERMILION, "marker": "_", "markersize": 5.0, "markeredgewidth": 0.5},
@@ -21,7 +21,7 @@ MOTIONS = (
 
 @style.context()
 def draw_contact_model(*, contact_model):
-    """Draw the error of e if contacts end at zero depth or zero force, and simulated contacts."""
+    """Draw maps of the error of the restitution, for contacts that end at zero depth or force."""
     drawn = style.figure("double", 4.0)
     panels = drawn.subplots(1, 2, sharex=True, sharey=True)
     data = contact_model[0]
@@ -53,7 +53,6 @@ def draw_contact_model(*, contact_model):
 
 
 def _draw_contacts(axes, data):
-    """Draw the load of each contact in simulated motions over the restitution of the damper."""
     used = data["used"].values[data["contact_used"].values]
     load, size = data["contact_load"].values, data["contact_size"].values
     for place in reversed(range(len(MOTIONS))):

@@ -10,7 +10,7 @@ from impact_damper.plot.maps import edges_of
 
 COLUMNS = 3  # panels side by side
 LINEAR = "linear stability limit"
-# Allowed error of max |Z1|, in the order of the dataset, or linear stability limit -> line.
+# Entry of the legend -> look of its line. The errors have the same order as in the dataset.
 LINES = {
     "within 1 %": {"marker": "o", "markerfacecolor": style.WHITE, "linestyle": (0, (4, 2))},
     "within 10 %": {"marker": "s"},
@@ -20,7 +20,7 @@ LINES = {
 
 @style.context()
 def draw_missed_contacts(*, missed_contacts):
-    """Draw maps of the share of missed contacts, one panel for each method."""
+    """Draw the share of contacts that an integrator misses, one map for each integrator."""
     (data,) = missed_contacts
     drawn, panels = style.grid(data.sizes["integrator"], 1.9, 0.8, COLUMNS)
     for k, (axes, name) in enumerate(zip(panels, data["integrator"].values, strict=True)):
@@ -40,7 +40,6 @@ def draw_missed_contacts(*, missed_contacts):
 
 
 def _panel(axes, data, name):
-    """Draw the panel of one method, and return the coloured map of missed contacts."""
     of, depths, fixed = data.sel(integrator=name), data["depth"].values, integrators()[name].fixed
     y = data["fixed_steps"].values if fixed else data["method_tolerance"].values
     shares = {"cmap": "cividis_r", "vmin": 0, "vmax": 1, "rasterized": True}
@@ -66,7 +65,7 @@ def _panel(axes, data, name):
 
 @style.context()
 def draw_stable_steps(*, stable_steps):
-    """Draw the largest accurate step over contact stiffness, one panel for each damper."""
+    """Draw the largest accurate time step over contact stiffness, one panel for each damper."""
     drawn = style.figure("double", 3.9)
     panels = drawn.subplots(1, len(stable_steps), sharey=True, squeeze=False)[0]
     for axes, data in zip(panels, stable_steps, strict=True):
@@ -88,7 +87,7 @@ def draw_stable_steps(*, stable_steps):
 
 
 def _draw_method(axes, data, index, title):
-    """Draw the largest accurate steps of a method for each allowed error, and its linear limit."""
+    """Draw the largest accurate steps of a method, and its linear stability limit."""
     looks = dict(zip(data["accuracy"].values, list(LINES.values())[:2], strict=True))
     for accuracy, look in looks.items():
         step = data["stable_step"].sel(accuracy=accuracy) * data["contact_frequency"]
@@ -100,7 +99,7 @@ def _draw_method(axes, data, index, title):
 
 
 def _edges(values):
-    """Return edges of cells around values on a log axis. A single cell is a decade wide."""
+    """Return edges of map cells around values on a log axis. A single cell is a decade wide."""
     if len(values) == 1:
         return np.asarray(values) * np.sqrt([0.1, 10])
     return np.exp(edges_of(np.log(values)))

@@ -9,7 +9,7 @@ from impact_damper.plot.basin_plane import basins as basins_plot
 from impact_damper.plot.motions import migration as migration_plot
 
 AROUND = -15, 25  # first and last cycle of the detail panel, relative to the last release
-# Motion after the release -> marker.
+# Motion that follows when the damper is switched off -> marker.
 DESTINATIONS = {
     "non_resonance": style.markers(
         "released to the non-resonance motion", style.BLUE, ".", markerfacecolor=style.BLUE
@@ -30,7 +30,7 @@ DAMPER = "mass_ratio", "clearance", "restitution"
 
 @style.context({"axes.titley": None})  # keeps the panel letters clear of the upper axis
 def draw_migration(*, migration):
-    """Draw the displacement in one run of each case, whole and around the last release."""
+    """Draw one run of each case over time: the whole run, and the part around its last release."""
     drawn = style.figure("double", 0.7 + 3.6 * len(migration))
     panels = drawn.subplots(2 * len(migration), 1, squeeze=False)[:, 0]
     for runs, whole, part in zip(migration, panels[::2], panels[1::2], strict=True):
@@ -56,7 +56,7 @@ def draw_release(*, migration):
     drawn, panels = style.grid(len(sources), 2.6, 0.6, columns)
     for axes, (runs, row) in zip(panels, sources, strict=True):
         _draw_releases(axes, runs.isel(damped=row))
-    # With three panels in a row only the middle panel gets a label: three labels would overlap.
+    # If a row has three panels, only the middle one has a label, since three would overlap.
     for axes in panels[1::3] if columns == 3 else panels:
         axes.set_xlabel(style.axis_label(migration[0]["release_displacement"]))
     drawn.supylabel(style.axis_label(migration[0]["release_velocity"]), fontsize="medium")
@@ -65,7 +65,6 @@ def draw_release(*, migration):
 
 
 def _draw_releases(axes, releases):
-    """Draw the releases from one motion with damper."""
     reached = decode(releases["release_destination"]).values
     for destination, look in DESTINATIONS.items():
         chosen = reached == destination
@@ -103,17 +102,16 @@ def draw_release_policies(*, release_policies):
 
 
 def _draw_case(above, below, one):
-    """Draw the policies for one damper: success in one panel, cycles in the panel below."""
     frequency = one["frequency"].values
     for k, policy in enumerate(one["policy"].values):
         look = style.curve(k) | {"marker": style.CURVES[k][2], "label": POLICIES[policy]}
         success = one["policy_success"].sel(policy=policy).values
         spread = np.abs(success[:, 1:] - success[:, :1]).T
-        # A small shift in frequency keeps intervals from hiding each other.
+        # Each policy is shifted a little in frequency, so that no interval hides another.
         above.errorbar(frequency + 0.004 * (k - 1.5), success[:, 0], spread, capsize=1.5, **look)
         cycles = one["policy_cycles"].sel(policy=policy, quantile=0.5).values
         middle = np.where(np.isfinite(cycles[:, 0]), cycles[:, 0], np.nan)
-        # An interval with an infinite upper end becomes a bar that leaves the panel.
+        # A confidence interval without upper end is drawn up to the edge of the panel.
         spread = middle - cycles[:, 1], np.minimum(cycles[:, 2], 1e6) - middle
         below.errorbar(frequency + 0.004 * (k - 1.5), middle, spread, capsize=1.5, **look)
     ends = frequency[0] - 0.03, frequency[-1] + 0.03

@@ -8,7 +8,7 @@ from impact_damper.plot.motions import phase_panel
 from impact_damper.plot.responses import response as response_plot
 from impact_damper.plot.stacked_shares import shares as shares_plot
 
-# Lines of orbits without a damper, drawn behind the orbits with a damper.
+# Lines of stable and unstable orbits without a damper, drawn behind all others.
 FREE = {"color": style.BLACK, "linewidth": 0.7, "zorder": 2.2}
 FREE_UNSTABLE = {"color": style.GREY, "linewidth": 0.7, "linestyle": ":", "zorder": 2.1}
 
@@ -60,7 +60,7 @@ def draw_motion(*, motion):
 
 @style.context()
 def draw_response(*, response, harmonic_balance, subharmonic, branches):
-    """Draw displacement against frequency, one panel for each restitution of the dampers."""
+    """Draw displacement against frequency, one panel for each restitution."""
     free = [orbits for orbits in branches if not has_damper(orbits)]
     kinds = sorted({_restitution(motions) for motions in response}, reverse=True)
     drawn = style.figure("double", 1.7 + 3.3 * len(kinds))
@@ -83,12 +83,11 @@ def draw_response(*, response, harmonic_balance, subharmonic, branches):
 
 
 def _restitution(data):
-    """Return the restitution of the damper of a dataset."""
     return parameters_of(data)["restitution"]
 
 
 def _period_3(motions):
-    """Return the dataset with only its settled motions whose period is a multiple of 3."""
+    """Return the dataset with all motions marked as absent except those of period 3, 6, 9, ..."""
     period = motions["period"]
     chosen = is_settled(motions) & (period > 1) & (period % 3 == 0)
     outcome = motions["outcome"].where(chosen, flag("outcome", "absent"))
@@ -97,7 +96,7 @@ def _period_3(motions):
 
 @style.context()
 def draw_branches(*, branches):
-    """Draw max |Z1| over frequency, a panel for each damper. All panels show the free orbits."""
+    """Draw max |Z1| of orbits with and without damper over frequency, a panel for each damper."""
     damped = [data for data in branches if has_damper(data)]
     free = [data for data in branches if not has_damper(data)]
     drawn = style.figure("double", 4.6 * len(damped))

@@ -1,4 +1,4 @@
-"""Figure kind `rigid_limit`: errors if walls are taken as rigid, over r1 and frequency."""
+"""Figure of the error of max |Z1| that is made if walls are taken as rigid."""
 
 import numpy as np
 from matplotlib.colors import LogNorm
@@ -12,7 +12,7 @@ OWN = style.line("$r_1$ of the damper", style.BLACK, linewidth=0.6, linestyle=(0
 
 
 def contours(axes, x, y, error, levels):
-    """Draw the contour lines of an error at two levels, with an entry in the legend for each."""
+    """Draw the contour lines of an error at two levels, each with an entry in the legend."""
     for level, line in zip(levels, ("solid", "dotted"), strict=True):
         if np.nanmin(error) < level < np.nanmax(error):
             axes.contour(x, y, error, [level], colors=style.BLACK, linewidths=0.8, linestyles=line)
@@ -21,7 +21,7 @@ def contours(axes, x, y, error, levels):
 
 @style.context()
 def draw_rigid_limit(*, rigid_limit):
-    """Draw maps of the error of max |Z1|, and curves of the error over the stiffness r1."""
+    """Draw the error of max |Z1| for rigid walls, as maps and as curves over the stiffness r1."""
     drawn = style.figure("double", 5.2)
     grid = drawn.add_gridspec(2, len(rigid_limit), height_ratios=(1, 1.2))
     maps = [drawn.add_subplot(grid[0, column]) for column in range(len(rigid_limit))]
@@ -41,7 +41,6 @@ def draw_rigid_limit(*, rigid_limit):
 
 
 def _draw_map(axes, data, norm):
-    """Draw the error over frequency and stiffness, and return the coloured cells."""
     x, y = data["frequency"].values, data["stiffness"].values
     error = np.abs(data["rigid_error"].values.T)
     cells = mesh(axes, x, y, np.maximum(error, SMALLEST), norm, "one or both motions not found")
@@ -53,7 +52,7 @@ def _draw_map(axes, data, norm):
 
 
 def _draw_orders(axes, rigid_limit):
-    """Draw errors of max |Z1| over r1 at one frequency, and lines of the slopes -1/2 and -1."""
+    """Draw the error of max |Z1| over the stiffness r1, with lines of the slopes -1/2 and -1."""
     for index, data in enumerate(rigid_limit):
         row = data.sel(frequency=parameters_of(data)["frequency"], method="nearest")
         x, look = data["stiffness"], style.curve(index)
@@ -83,5 +82,4 @@ def _draw_orders(axes, rigid_limit):
 
 
 def _title(data):
-    """Return the parameters of a damper as text."""
     return style.parameter_label(parameters_of(data), "mass_ratio", "clearance", "restitution")

@@ -67,7 +67,7 @@ def dashpot(axes, start, end, y, height=0.18):
 
 
 def ground(axes, start, end, depth=0.09, spacing=0.09):
-    """Draw a fixed line, hatched on the right-hand side as seen from `start` towards `end`."""
+    """Draw a fixed surface: a line, hatched at its right as seen from `start` towards `end`."""
     start, end = np.array(start), np.array(end)
     length = np.hypot(*(end - start))
     along = (end - start) / length
@@ -79,7 +79,7 @@ def ground(axes, start, end, depth=0.09, spacing=0.09):
 
 
 def mass(axes, left, bottom, width, height, color=style.PALE):
-    """Draw a rigid block."""
+    """Draw a mass as a rectangle."""
     axes.add_patch(Rectangle((left, bottom), width, height, **filled(color, "outline")))
 
 
@@ -90,7 +90,7 @@ def wheels(axes, centres, rail, radius=0.08):
 
 
 def coordinate(axes, x, y, symbol):
-    """Draw the symbol of a displacement, measured to the right from a tick at (x, y)."""
+    """Draw a displacement: a tick at (x, y), an arrow to the right and a symbol."""
     stroke(axes, [(x, y - 0.08), (x, y + 0.08)], "detail", color=style.BLUE)
     arrow(axes, (x, y), (x + 0.42, y), color=style.BLUE)
     letter(axes, x + 0.55, y, symbol, color=style.BLUE)

@@ -28,7 +28,7 @@ def carriage(axes):
 
 
 def slot(axes, contact):
-    """Draw the slot with the loose mass midway between two contacts, each drawn by `contact`."""
+    """Draw the slot and the loose mass in it. `contact` draws what joins a wall and a plate."""
     parts.mass(axes, 2.5, 0.66, 3.0, 1.46, style.WHITE)
     parts.wheels(axes, (3.85, 4.15), 0.66, 0.04)
     parts.mass(axes, 3.68, 0.74, 0.64, 0.90, style.PALE_SKY)
@@ -80,25 +80,25 @@ def inelastic_model():
 
 
 def place(u, v, level):
-    """Return points of a plane as points (n, 2) of the sheet; u to the right, v into the page."""
+    """Return where points (u, v) of an oblique plane at the height `level` lie on the sheet."""
     u, v = np.broadcast_arrays(np.atleast_1d(u), v)
     return np.column_stack((0.25 + u + 0.5 * v, level + 0.6 * v))
 
 
 def region(axes, u, v, level, color):
-    """Draw a filled region of a plane."""
+    """Fill the polygon with corners (u, v) in the plane at the height `level`."""
     axes.add_patch(Polygon(place(u, v, level), **parts.filled(color)))
 
 
 def attractor(axes, centre, radius, level, color, **keywords):
-    """Draw a closed orbit: a circle in a plane."""
+    """Draw an attractor as a circle in the plane at the height `level`."""
     angle = np.linspace(0, 2 * np.pi, 200)
     points = place(centre[0] + radius * np.cos(angle), centre[1] + radius * np.sin(angle), level)
     parts.stroke(axes, points, color=color, **keywords)
 
 
 def approach(axes, start, centre, radius, level, color, rate, **keywords):
-    """Draw a spiral onto a circle; the distance to the circle falls by exp(-rate) per radian."""
+    """Draw a motion that tends to an attractor: a spiral that approaches a circle."""
     offset = np.subtract(start, centre)
     turned = np.linspace(0, 2 * np.pi, 300)
     angle = np.arctan2(offset[1], offset[0]) + turned
@@ -110,7 +110,7 @@ def approach(axes, start, centre, radius, level, color, rate, **keywords):
 
 
 def passage(axes, low, high, edge, words, upward):
-    """Draw the switching of the damper: an arrow between two planes, dashed above `edge`."""
+    """Draw the switching of the damper: an upright arrow between two planes, and words beside it."""
     x = low[0]
     ends = [(x, low[1] + 0.03), (x, edge)]
     parts.stroke(axes, [(x, edge), high], "detail", linestyle=(0, (2, 2)))
@@ -125,7 +125,7 @@ def state(axes, position, symbol, shift):
 
 
 def triad(axes, x, y):
-    """Draw the axes of the planes and the vertical axis."""
+    """Draw three axes: displacement and velocity in the planes, state of the damper upwards."""
     for end, symbol, shift in (
         ((x + 0.34, y), "$Z_1$", (0.12, 0)),
         ((x + 0.2, y + 0.24), "$Z_1\u2032$", (0.09, 0.09)),
@@ -136,7 +136,7 @@ def triad(axes, x, y):
 
 
 def planes(axes, off, on):
-    """Draw the planes of states: two basins without the damper, one basin with the damper."""
+    """Draw two planes of states: two basins without the damper, and one basin with the damper."""
     right = 5.3
     v = np.linspace(0, 2, 100)
     border = 2.5 + 0.22 * np.sin(2.6 * v)
@@ -190,7 +190,7 @@ def migration_scheme():
 
 
 def node(axes, x, y, width, height, words, color):
-    """Draw a box of a flow chart. Pale orange boxes are diamonds, pale sky ones are rounded."""
+    """Draw a box of a flow chart. Its colour decides whether it is a diamond or a rectangle."""
     across, up = width / 2, height / 2
     if color == style.PALE_ORANGE:
         corners = [(x - across, y), (x, y - up), (x + across, y), (x, y + up)]
@@ -204,7 +204,7 @@ def node(axes, x, y, width, height, words, color):
 
 @style.context()
 def algorithm():
-    """Return figure 17: the loop of migration control."""
+    """Return figure 17: the flow chart of migration."""
     axes = parts.sheet("single", 5.06)
     x, side, width, margin = 1.17, 2.84, 1.76, 0.1
     chain = [

@@ -1,1 +1,1 @@
-"""What claims and tables read from datasets."""
+"""Functions that read from datasets what the claims and tables need."""

@@ -10,7 +10,7 @@ from chatterjee1995.reading import orbits
 
 
 class Band(NamedTuple):
-    """A suppression band. Its lower end lies at a W between `lower` and `lower + resolution`."""
+    """A suppression band. Its lower end lies at a W from `lower` to `lower + resolution`."""
 
     lower: float
     upper: float
@@ -18,12 +18,12 @@ class Band(NamedTuple):
 
     @property
     def width(self):
-        """Largest width compatible with the data."""
+        """Largest possible width of the band, from `lower` to `upper`."""
         return self.upper - self.lower
 
     @property
     def least_width(self):
-        """Smallest width compatible with the data."""
+        """Smallest possible width of the band, from `lower + resolution` to `upper`."""
         return self.width - self.resolution
 
 
@@ -41,8 +41,9 @@ def quiet_motions(response, free):
 
 
 def suppression_band(datasets, name):
-    """Return the `Band` from the highest W of a violent motion to the end of the free resonance.
+    """Return the suppression band of a curve as a `Band`.
 
+    The band reaches from the highest W of a violent motion to the end of the free resonance.
     Without violent motions, `lower` and `resolution` are NaN. If only periodic motions are
     violent, `resolution` is 0. Otherwise it is at most the step between two computed W.
     """

@@ -1,4 +1,4 @@
-"""Select datasets, and read parameters, flags and solutions of harmonic balance from them.
+"""Functions that select datasets and read numbers from them.
 
 `datasets[stage][name]` is a dataset. A `design` is a dataset of the stage `harmonic_balance`.
 """
@@ -7,13 +7,14 @@ import numpy as np
 
 from impact_damper.data.datasets import decode, flag, has_damper, named, parameters_of
 
-# Names of curves. CAPTIONS and RULES are sorted by omega_l, BY_MASS by rm.
-CAPTIONS = ("figure_05a", "figure_03b", "figure_03a")  # figure 3, printed d0; 5 (a) is 3 (c)
-RULES = ("figure_03c_rule", "figure_03b_rule", "figure_03a_rule")  # CAPTIONS with d0 by rule (19)
-BY_MASS = ("figure_05a", "figure_05b", "figure_05c")  # figure 5
+# Curves of figure 3 with the printed clearances, sorted by omega_l. Figure 5 (a) is figure 3 (c).
+CAPTIONS = ("figure_05a", "figure_03b", "figure_03a")
+# The same curves with the clearances that follow from rule (19).
+RULES = ("figure_03c_rule", "figure_03b_rule", "figure_03a_rule")
+BY_MASS = ("figure_05a", "figure_05b", "figure_05c")  # curves of figure 5, sorted by mass ratio
 ELASTIC = (*BY_MASS, "figure_08")  # all simulated responses with elastic contact
 INELASTIC = "figure_10"  # BY_MASS[1] with e < 1
-# Release policy -> words for the policy in tables and figures.
+# Release policy -> words for this policy in tables and figures.
 POLICIES = {
     "settled": "random phase once settled",
     "hold": "fixed number of cycles",
@@ -27,7 +28,7 @@ class Missing(LookupError):
 
 
 def get(datasets, stage, name):
-    """Return the dataset `name` of a stage, or raise Missing."""
+    """Return the dataset `name` of a stage, or raise Missing if there is none."""
     try:
         return datasets[stage][name]
     except KeyError:
@@ -35,7 +36,7 @@ def get(datasets, stage, name):
 
 
 def select(datasets, stage, names):
-    """Return the datasets `names` of a stage, or raise Missing."""
+    """Return a list of datasets of a stage, one for each name, or raise Missing."""
     return [get(datasets, stage, name) for name in names]
 
 
@@ -50,22 +51,22 @@ def free(datasets, stage) -> dict:
 
 
 def parameter(data, name):
-    """Return a parameter with which a dataset was computed."""
+    """Return one of the parameters with which a dataset was computed."""
     return parameters_of(data)[name]
 
 
 def parameters(data, *names):
-    """Return several parameters with which a dataset was computed."""
+    """Return a tuple of the parameters `names` with which a dataset was computed."""
     return tuple(parameters_of(data)[name] for name in names)
 
 
 def meaning(value):
-    """Return the meaning of a flag in words, such as "settled"."""
+    """Return in words, such as "settled", what an integer flag of a dataset means."""
     return decode(value).item().replace("_", " ")
 
 
 def is_outcome(data, *meanings):
-    """Return a mask of the motions that have one of the given outcomes."""
+    """Return a mask of the motions whose outcome is one of `meanings`, such as "chaotic"."""
     return data.outcome.isin([flag("outcome", meaning) for meaning in meanings])
 
 
@@ -76,14 +77,14 @@ def touching(response):
 
 
 def share_of_starts(response, motions):
-    """Return at each W the share of random starts that lead to motions in the mask `motions`."""
+    """Return at each frequency the share of random starts that lead to motions in a mask."""
     total = response.motion_starts.sum("motion")
     led = response.motion_starts.where(motions, 0).sum("motion")
     return (led / total.where(total > 0)).fillna(0)
 
 
 def within(data, lower, upper):
-    """Return the part of a dataset from frequency lower to upper, or raise Missing if empty."""
+    """Return the part of a dataset with frequencies in a range, or raise Missing if it is empty."""
     part = data.sel(frequency=slice(lower, upper))
     if part.sizes["frequency"] == 0:
         raise Missing(f"There is no frequency from {lower:.4g} to {upper:.4g}")
@@ -91,7 +92,7 @@ def within(data, lower, upper):
 
 
 def crossing(x, y, level):
-    """Return the first x at which y, linear between the points, crosses `level`, or NaN."""
+    """Return the first x at which the polyline through points (x, y) crosses a level, or NaN."""
     side = np.sign(np.asarray(y) - level)
     changes = np.flatnonzero(side[:-1] * side[1:] < 0)
     if len(changes) == 0:
@@ -101,7 +102,7 @@ def crossing(x, y, level):
 
 
 def band_edges(design):
-    """Return the edges of the suppression band by harmonic balance, or raise Missing."""
+    """Return the ends of the suppression band by harmonic balance, or raise Missing."""
     lower, upper = design.edge_frequency.values
     if not upper > lower:
         raise Missing("There is no suppression band by harmonic balance")
@@ -109,25 +110,25 @@ def band_edges(design):
 
 
 def stable_impacting(design):
-    """Return the amplitudes a of the stable solutions of (7) with impacts, and NaN for others."""
+    """Return the amplitudes a of equation (7), NaN for solutions not stable or without impacts."""
     stable = design.stability == flag("stability", "stable")
     return design.amplitude.where(stable & (design.kind == flag("kind", "impacting")))
 
 
 def quiet_balance(design):
-    """Return the amplitude a, with its sign, of the smallest stable solution of (7) at each W."""
+    """Return at each W the amplitude a of the stable solution of (7) with impacts and least |a|."""
     amplitude = stable_impacting(design)
     return amplitude.isel(solution=np.abs(amplitude).fillna(np.inf).argmin("solution"))
 
 
 def design_point(orbit):
-    """Return the exact quiet orbit at the peak frequency Wp, or raise Missing."""
+    """Return the exact quiet orbit at the peak frequency of a design, or raise Missing."""
     if named(orbit, "design_orbit_status") != "found":
         raise Missing("There is no quiet orbit at a design point: the continuation ended before")
     return orbit.isel(point=int(np.argmin(orbit.followed_value.values)))
 
 
 def largest_multiplier(orbit):
-    """Return the largest modulus of the Floquet multipliers of each orbit."""
+    """Return for each orbit the largest modulus of its Floquet multipliers."""
     modulus = np.hypot(orbit.orbit_multiplier_real, orbit.orbit_multiplier_imaginary)
     return modulus.max("multiplier").values

@@ -1,6 +1,7 @@
-"""Branches of exact periodic orbits, cut into pieces and evaluated at any frequency.
+"""Exact periodic orbits at any frequency, interpolated within pieces of branches.
 
-`free` are branches without damper. High (violent) orbits exceed half of the free resonance.
+The argument `free` is a dataset of branches without damper. An orbit is violent (high) if its
+max |Z1| is more than half of max |Z1| of the free resonance at the same frequency.
 """
 
 import numpy as np
@@ -16,7 +17,7 @@ INTERPOLATED = ("frequency", "size", "amplitude", "loose")  # columns interpolat
 
 
 def free_of(datasets, data):
-    """Return the branches without damper for the oscillator of `data`, or raise Missing."""
+    """Return the branches without damper of the oscillator of `data`, or raise Missing."""
     wanted = oscillator_of(data)
     for free in reading.free(datasets, "branches").values():
         if oscillator_of(free) == wanted:
@@ -25,19 +26,21 @@ def free_of(datasets, data):
 
 
 def of_curve(datasets, name):
-    """Return the branches of the curve `name`, and of its oscillator without damper."""
+    """Return two datasets of branches: of a curve, and of its oscillator without damper."""
     branches = reading.get(datasets, "branches", name)
     return branches, free_of(datasets, branches)
 
 
 def pieces(branches) -> pd.DataFrame:
-    """Return a table of the pieces of branches. A piece joins two successive orbits of a branch.
+    """Return a table of pieces. A piece joins two successive orbits of a branch.
 
-    `lower` and `upper` are the lowest and highest W. `amplitude` and `loose` are the complex first
-    harmonic of Z1: the phase of `amplitude` is relative to Z2, the phase of `loose` to the loose
-    mass, Z1 - Z2. `amplitude`, `loose`, `frequency` and `size` (max |Z1|) are means of two orbits;
-    `size_change` and so on are the second orbit minus the first. `fewest` and `contacts` are the
-    least and most contacts a cycle, `restitution` the least ratio of departure to approach speed.
+    `lower` and `upper` are the lower and the higher frequency W of the two orbits. `frequency`,
+    `size` (max |Z1|), `amplitude` and `loose` are means over both orbits. `size_change` and so on
+    are the value at the second orbit minus the value at the first. `amplitude` and `loose` are
+    complex. The modulus is the first harmonic of Z1. The phase of `amplitude` is relative to Z2,
+    the phase of `loose` relative to the displacement of the loose mass, Z1 - Z2. `fewest` and
+    `contacts` are the lower and the higher number of contacts a cycle. `restitution` is the least
+    speed after a contact over the speed before it.
     """
     number = branches.orbit_branch.values
     first = np.flatnonzero(number[1:] == number[:-1])
@@ -68,7 +71,7 @@ def pieces(branches) -> pd.DataFrame:
 
 
 def ranges(part):
-    """Return the ranges [lower, upper] of W that pieces cover, merged and in ascending order."""
+    """Return the frequency ranges [lower, upper] that pieces cover. Ranges that overlap are one."""
     merged = []
     for lower, upper in part[["lower", "upper"]].sort_values("lower").to_numpy():
         if merged and lower <= merged[-1][1]:
@@ -79,12 +82,12 @@ def ranges(part):
 
 
 def covered(part, lower=-np.inf, upper=np.inf):
-    """Return the total width in W that pieces cover between `lower` and `upper`."""
+    """Return the total width of the frequency ranges that pieces cover, from `lower` to `upper`."""
     return sum(np.ptp(np.clip(ends, lower, upper)) for ends in ranges(part))
 
 
 def coexisting(part, column):
-    """Return the total width in W where pieces with different values of `column` overlap."""
+    """Return over how wide a frequency range pieces with different values of `column` coexist."""
     values = [ranges(same) for _, same in part.groupby(column)]
     if not values:
         return 0.0
@@ -98,7 +101,7 @@ def coexisting(part, column):
 
 
 def crossings(part, frequency) -> pd.DataFrame:
-    """Interpolate pieces at given frequencies. A row of the table is one piece at one frequency."""
+    """Return a table of orbits at given frequencies, interpolated within each piece."""
     frequency = np.atleast_1d(np.asarray(frequency, float))
     inside = frequency[:, None] >= part.lower.to_numpy()
     inside &= frequency[:, None] <= part.upper.to_numpy()
@@ -113,18 +116,18 @@ def crossings(part, frequency) -> pd.DataFrame:
 
 
 def smallest(part, frequency) -> pd.DataFrame:
-    """Return the row of `crossings` with the smallest size at each frequency."""
+    """Return a table with the orbit of least max |Z1| at each frequency."""
     rows = crossings(part, frequency)
     return rows.loc[rows.groupby("frequency")["size"].idxmin()]
 
 
 def largest_sizes(part, frequency):
-    """Return the largest size at each frequency, NaN where there is no piece."""
+    """Return the largest max |Z1| of pieces at each frequency, NaN where there is no piece."""
     return crossings(part, frequency).groupby("frequency")["size"].max().reindex(frequency).values
 
 
 def resonance_fold(free):
-    """Return W and max |Z1| of the fold that ends the free resonance, or raise Missing."""
+    """Return W and max |Z1| of the fold at which the free resonance ends, or raise Missing."""
     fold = free.event_kind.values == flag("event_kind", "fold")
     fold &= free.branch_period.values[free.event_branch.values] == 1
     if not fold.any():
@@ -134,7 +137,7 @@ def resonance_fold(free):
 
 
 def resonance(free, frequency):
-    """Return max |Z1| of the free resonance at each W, NaN above its fold."""
+    """Return max |Z1| of the free resonance at each frequency, NaN above the fold that ends it."""
     end, _ = resonance_fold(free)
     part = pieces(free)
     sizes = largest_sizes(part[part.period == 1], frequency)
@@ -142,21 +145,21 @@ def resonance(free, frequency):
 
 
 def high(branches, free):
-    """Return the pieces of stable high orbits of any period."""
+    """Return the pieces of branches that are stable and violent, with any period."""
     part = pieces(branches)
     part = part[part.stable]
     return part[part["size"] > HALF * resonance(free, part.frequency)]
 
 
 def quiet(branches, free):
-    """Return the pieces of stable orbits of period 1 that are not high."""
+    """Return the pieces of branches that are stable, of period 1 and not violent."""
     part = pieces(branches)
     part = part[part.stable & (part.period == 1)]
     return part[~(part["size"] > HALF * resonance(free, part.frequency))]
 
 
 def smallest_quiet(branches, free, frequency):
-    """Return the row of `crossings` with the smallest quiet orbit at each W, or raise Missing."""
+    """Return a table of the smallest stable quiet orbit at each frequency, or raise Missing."""
     orbits = smallest(quiet(branches, free), frequency)
     missing = np.setdiff1d(frequency, orbits.frequency)
     if len(missing):
@@ -165,9 +168,10 @@ def smallest_quiet(branches, free, frequency):
 
 
 def high_counterparts(design, branches, free) -> pd.DataFrame:
-    """Return the exact orbit nearest in amplitude to each stable violent solution of (7).
+    """Return a table: for each stable violent solution of (7) the exact orbit nearest in amplitude.
 
-    Only symmetric orbits of period 1 with two contacts count: (7) approximates no other orbits.
+    Equation (7) is harmonic balance with one harmonic. It approximates only symmetric orbits of
+    period 1 with two contacts, so no other orbits are compared.
     """
     part = pieces(branches)
     part = part[(part.period == 1) & (part.asymmetry < SYMMETRIC)]
@@ -181,7 +185,10 @@ def high_counterparts(design, branches, free) -> pd.DataFrame:
 
 
 def subharmonic(free):
-    """Return the pieces of the free subharmonic with the widest range of W, or raise Missing."""
+    """Return the pieces of the branch of one-third subharmonics without damper, or raise Missing.
+
+    Of several branches, the branch with the widest frequency range is taken.
+    """
     part = pieces(free)
     third = part[(part.period == 3) & (part.asymmetry < SYMMETRIC)]
     if third.empty:
@@ -196,6 +203,6 @@ def subharmonic_range(free):
 
 
 def stable_subharmonics(branches):
-    """Return the pieces of stable orbits whose period is a multiple of 3."""
+    """Return the pieces of branches that are stable and whose period is a multiple of 3."""
     part = pieces(branches)
     return part[part.stable & (part.period % 3 == 0)]

@@ -1,1 +1,1 @@
-"""Tables of the paper. A CSV file has all columns, a Markdown file the first `SHOWN` columns."""
+"""Tables of the paper. CSV files have all columns of a table, Markdown files the first columns."""

@@ -1,4 +1,4 @@
-"""Tables of harmonic balance: designs, convergence with harmonics, and maps of errors."""
+"""Tables of the errors of harmonic balance: for designs, with more harmonics, and over maps."""
 
 import numpy as np
 import pandas as pd
@@ -11,7 +11,7 @@ from impact_damper.data.shares import wilson
 
 NEAR = 0.2  # an amplitude is near the exact amplitude if the relative difference is at most this
 ACCURACIES = {0.01: "1 %", 1e-3: "1e-3", 1e-6: "1e-6"}  # error of the amplitude -> text
-# Question about each cell of a map -> variable that holds the answer.
+# Question about each cell of a map -> variable of the dataset with the answers.
 QUESTIONS = {
     "quiet motion": "quiet_verdict",
     "start at the quiet solution": "quiet_run_motion",
@@ -29,7 +29,7 @@ TRUTHS = {
 
 
 def harmonic_balance(datasets) -> pd.DataFrame:
-    """Return a table of designs (curves with a damper): d0 by rule (19), and amplitudes at Wp."""
+    """Return a table of dampers: clearance by rule (19), and amplitudes at the peak frequency."""
     rows = []
     for name, data in reading.damped(datasets, "harmonic_balance").items():
         peak = float(data.peak_frequency)
@@ -54,7 +54,6 @@ def harmonic_balance(datasets) -> pd.DataFrame:
 
 
 def _exact_orbit(orbit):
-    """Return columns on the exact quiet orbit and on random starts at the design point."""
     columns = {"max |Z1| at Ωp, exact orbit": np.nan, "stability of the exact orbit": ""}
     if orbit is None:
         return columns
@@ -76,7 +75,7 @@ def _exact_orbit(orbit):
 
 
 def harmonic_convergence(datasets) -> pd.DataFrame:
-    """Return a table of motions: highest harmonic needed, decay of error, result of cold starts."""
+    """Return a table of motions: how the error of harmonic balance falls with more harmonics."""
     return pd.DataFrame(
         {"motion": name} | _convergence(data)
         for name, data in datasets.get("harmonic_convergence", {}).items()
@@ -84,7 +83,7 @@ def harmonic_convergence(datasets) -> pd.DataFrame:
 
 
 def _convergence(data):
-    """Return a motion's row. A cold start begins Newton's method from the one-harmonic solution."""
+    """Return the row of a motion. A cold start is Newton's method from one harmonic."""
     highest, cold = data["highest_harmonic"].values, decode(data["cold_status"]).values
     error = data["series_error"].sel(error_measure="maximum").values
     decay = data.sel(error_measure="maximum")
@@ -116,14 +115,14 @@ def _convergence(data):
 
 
 def _needed(highest, error, accuracy):
-    """Return the highest harmonic N from which on all errors are at most `accuracy`, or NaN."""
+    """Return the number of harmonics from which on the error is at most `accuracy`, or NaN."""
     above = np.flatnonzero(~(error <= accuracy))
     first = above[-1] + 1 if len(above) else 0
     return highest[first] if first < len(highest) else np.nan
 
 
 def balance_map(datasets) -> pd.DataFrame:
-    """Return a table of maps: cells with each verdict, in chaos, and with the right amplitude."""
+    """Return a table that counts the map cells in which harmonic balance is right or wrong."""
     rows = []
     for name, data in datasets.get("balance_map", {}).items():
         found = []
@@ -139,7 +138,7 @@ def balance_map(datasets) -> pd.DataFrame:
 
 
 def _answers(meaning):
-    """Split a verdict such as "stable_absent" into the answers of balance and exact motions."""
+    """Return the answers of harmonic balance and of exact orbits in a verdict, "stable_absent"."""
     balance, _, truth = meaning.partition("_")
     if balance not in ("none", "stable", "unstable") or not truth:
         balance, truth = "", meaning
@@ -148,7 +147,6 @@ def _answers(meaning):
 
 
 def _cells(question, balance, truth, count, total):
-    """Return a row with a count of cells, their share of all cells, and its confidence interval."""
     share, lower, upper = wilson(int(count), int(total))
     return {
         "question": question,
@@ -163,7 +161,6 @@ def _cells(question, balance, truth, count, total):
 
 
 def _summary(data):
-    """Yield rows on chaotic violent motions, and on cells rightly called stable."""
     kinds = decode(data["high_run_motion"])
     chaotic = np.sum(kinds == "high_chaotic")
     settled = np.sum(kinds == "high")

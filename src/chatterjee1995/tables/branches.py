@@ -8,7 +8,7 @@ from chatterjee1995.tables.files import DAMPER, parameter_columns
 from impact_damper.data.datasets import flag
 from impact_damper.data.sweeps import runs_of_true
 
-# Why a branch is not followed to its end -> text of the table.
+# Reason why a branch is not followed to its end -> words for it in the table.
 LEFT = {
     "unstable": "left among unstable orbits, since it winds through chaos there",
     "point limit": "left after the largest number of orbits, since it winds through chaos",
@@ -50,14 +50,12 @@ def orbits(datasets) -> pd.DataFrame:
 
 
 def _branches(datasets):
-    """Return pairs (name, dataset) of branches; branches without a damper come first."""
     return [*reading.free(datasets, "branches").items()] + [
         *reading.damped(datasets, "branches").items()
     ]
 
 
 def _ends_of(data, branch):
-    """Return a text for each end of a branch: why the branch ends, and which branch it meets."""
     ends, met = data["branch_end"][branch], data["branch_met"].values[branch]
     names = [LEFT.get(name, name) for name in map(reading.meaning, ends)]
     return [
@@ -67,8 +65,8 @@ def _ends_of(data, branch):
 
 
 def _stable_ranges(value, stable, *, closed):
-    """Return the stable ranges of W as text. A closed branch is first cut at an unstable orbit."""
-    if closed:
+    """Return the frequency ranges of stable orbits on a branch as text, such as "1.2 to 1.5"."""
+    if closed:  # begin at an unstable orbit, so that no stable range is divided
         cut = np.argmin(stable)
         value, stable = np.roll(value, -cut), np.roll(stable, -cut)
     parts = [value[first:last] for first, last in runs_of_true(stable)]
@@ -77,7 +75,7 @@ def _stable_ranges(value, stable, *, closed):
 
 
 def bifurcations(datasets) -> pd.DataFrame:
-    """Return a table of bifurcations and changes of contacts, at or next to stable orbits."""
+    """Return a table of bifurcations, and of changes of contacts, close to stable orbits."""
     rows = []
     for name, data in _branches(datasets):
         for k in np.flatnonzero(_next_to_stable(data)):
@@ -103,7 +101,7 @@ def bifurcations(datasets) -> pd.DataFrame:
 
 
 def _next_to_stable(data):
-    """Return for each event whether the orbit at the event or an orbit next to it is stable."""
+    """Return a mask of the events at which the orbit, or an orbit next to it, is stable."""
     found = np.zeros(data.sizes["event"], bool)
     for branch in range(data.sizes["branch"]):
         points = np.flatnonzero(data["orbit_branch"].values == branch)

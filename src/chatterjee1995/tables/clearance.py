@@ -9,7 +9,7 @@ from chatterjee1995.tables.files import parameter_columns
 from impact_damper.data.datasets import damper_of, decode, oscillator_of, parameters_of
 
 WITHIN = (1, 10)  # the table counts the optima predicted within these errors, in per cent
-# Rule -> value of rm W^2 d0 that the rule gives, or model from which the rule follows.
+# Rule for the clearance -> the value of rm W^2 d0 that it gives, or the model behind it.
 RULE_NAMES = {
     "balance": "(18): 1",
     "gap_harmonic": "pi^2/8",
@@ -22,7 +22,7 @@ CRITERIA = {"displacement": "max |Z1|", "first_harmonic": "first harmonic of Z1"
 
 
 def optimum(datasets) -> pd.DataFrame:
-    """Return a table of sweeps: the optimum d0 by simulation, by equation (7), and by rules."""
+    """Return a table of clearance sweeps: the optimum d0 by simulation, equation (7), and rules."""
     rows = []
     for name, data in datasets.get("optimum", {}).items():
         best, rule = float(data.optimum_clearance), float(data.rule_clearance)
@@ -48,7 +48,7 @@ def optimum(datasets) -> pd.DataFrame:
 
 
 def design_rules(datasets) -> pd.DataFrame:
-    """Return a table of rules: how many optimum d0 each rule predicts within 1 % and 10 %."""
+    """Return a table of rules: how many optimum clearances a rule predicts within 1 % and 10 %."""
     cells = pd.concat([*_grids(datasets), *_sweeps(datasets)], ignore_index=True)
     grids = cells[cells.group != SWEEPS]
     elastic = np.where(grids.restitution == 1, "all grids, e = 1", "all grids, e < 1")
@@ -61,7 +61,7 @@ def design_rules(datasets) -> pd.DataFrame:
 
 
 def _grids(datasets):
-    """Yield a frame for each grid, a row for each damper, frequency, minimised quantity, rule."""
+    """Yield a table for each grid of dampers: the optimum clearance, and its value by each rule."""
     for name, data in datasets.get("design_rules", {}).items():
         named = {name: decode(data[name]) for name in ("best_kind", "best_stability")}
         cells = data.assign(named).to_dataframe().reset_index()
@@ -73,7 +73,7 @@ def _grids(datasets):
 
 
 def _sweeps(datasets):
-    """Yield a frame for each clearance sweep, as in `_grids`. All simulated optima are stable."""
+    """Yield a table for each clearance sweep, with the columns that `_grids` yields."""
     for data in datasets.get("optimum", {}).values():
         parameters = parameters_of(data)
         oscillator, damper = oscillator_of(data), damper_of(data, clearance=1.0)
@@ -88,13 +88,12 @@ def _sweeps(datasets):
                 "rule_ratio": rule_ratios(oscillator, damper, parameters["frequency"])[0],
                 "rule_excess": np.nan,
                 "found": np.isfinite(best),
-                "stable": np.isfinite(best),
+                "stable": np.isfinite(best),  # simulations find only stable motions
             }
         )
 
 
 def _agreement(cells):
-    """Return how well one rule predicts the optimum d0 of the dampers in a group."""
     error = 100 * (cells.rule_ratio / cells.best_ratio - 1).abs()
     excess = 100 * cells.rule_excess
     return (

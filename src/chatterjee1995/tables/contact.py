@@ -1,4 +1,4 @@
-"""Tables of the contact model and of the rigid limit, with counts of map cells."""
+"""Tables of the contact model, and of the errors made if walls are taken as rigid."""
 
 import numpy as np
 import pandas as pd
@@ -14,12 +14,14 @@ EXITS = {
 
 
 def _count(values, meaning):
-    """Return how many of the flags `values` mean `meaning`."""
     return int(np.sum(decode(values) == meaning))
 
 
 def contact_model(datasets) -> pd.DataFrame:
-    """Return a table of contacts that end at zero depth or zero force, with counts of map cells."""
+    """Return a table of given and realised restitution, for two rules of when a contact ends.
+
+    A contact ends at zero depth or at zero force. Further columns count the cells of a map.
+    """
     rows = []
     for name, data in datasets.get("contact_model", {}).items():
         for rule in data.exit_rule.values:
@@ -40,7 +42,7 @@ def contact_model(datasets) -> pd.DataFrame:
 
 
 def _unloaded(data):
-    """Return the columns of a contact without load (no acceleration by other forces)."""
+    """Return columns about a contact in which only the wall accelerates the loose mass."""
     realised = float(data.unloaded_restitution)
     return {
         "restitution e, given": float(data.used),
@@ -52,7 +54,7 @@ def _unloaded(data):
 
 
 def rigid_limit(datasets) -> pd.DataFrame:
-    """Return a table of dampers: errors if walls are taken as rigid, and counts of map cells."""
+    """Return a table of dampers: the error of max |Z1| that is made if walls are taken as rigid."""
     rows = []
     for name, data in datasets.get("rigid_limit", {}).items():
         own = data.sel(frequency=reading.parameter(data, "frequency"), method="nearest")
@@ -89,7 +91,7 @@ VERDICTS = {
 
 
 def _needed(own):
-    """Return the r1 above which rigid walls err less than each threshold. `own`: data at one W."""
+    """Return for each allowed error the stiffness r1 above which walls may be taken as rigid."""
     columns = {}
     for k, level in enumerate(own.threshold.values):
         value = float(own.needed_stiffness[k])

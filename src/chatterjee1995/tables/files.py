@@ -1,4 +1,4 @@
-"""Tables written as CSV and as Markdown, and columns that several tables have."""
+"""Functions that write tables as CSV and as Markdown files, and columns of several tables."""
 
 import numbers
 import re
@@ -25,7 +25,7 @@ DAMPER = ("mass_ratio", "clearance", "restitution")
 
 
 def as_markdown(frame) -> str:
-    """Return the Markdown text of a table of strings."""
+    """Return a table of strings as Markdown text."""
 
     def escaped(value):
         return str(value).replace("|", r"\|")
@@ -35,7 +35,7 @@ def as_markdown(frame) -> str:
 
 
 def save_table(frame, csv_path, markdown_path, document=as_markdown) -> None:
-    """Write a table as CSV, and as Markdown made by `document`. NaN and None become empty cells."""
+    """Write a table to a CSV file, and to a Markdown file whose text `document(table)` returns."""
     values = frame.map(_rounded).astype(object)
     _write(csv_path, values.to_csv(index=False, lineterminator="\n"))
     shown = frame.map(partial(_rounded, digits=FEW_DIGITS)).astype(object)
@@ -43,7 +43,7 @@ def save_table(frame, csv_path, markdown_path, document=as_markdown) -> None:
 
 
 def for_people(frame, title, csv_name) -> str:
-    """Return the Markdown page of a table of strings; `csv_name` is the file with all columns."""
+    """Return a Markdown page with the first columns of a table and the name of its CSV file."""
     note = (
         "Numbers without a unit are dimensionless; an empty cell is a quantity that does not "
         f"exist there or was not computed. `{csv_name}` has all {frame.shape[1]} columns."
@@ -55,7 +55,7 @@ def for_people(frame, title, csv_name) -> str:
 
 
 def in_words(cell) -> str:
-    """Return a name in words, "figure 3 (c), rule" for "figure_03c_rule", and ∞ for "inf"."""
+    """Return a name in words: "figure 3 (c), rule" for "figure_03c_rule"."""
     cell = re.sub(r"^orbits_(?=[0-9])", "orbits of figure_", str(cell))
     cell = re.sub(r"\bfigure_0*([0-9]+)([a-z])", r"figure_\1 (\2)", cell)
     cell = re.sub(r"\bfigure_0*([0-9]+)", r"figure \1", cell).replace(")_", "), ")
@@ -68,13 +68,12 @@ def _write(path, content):
 
 
 def _rounded(value, digits=DIGITS):
-    """Return the text of a table cell for a value."""
     if isinstance(value, str | numbers.Integral) or np.isinf(value or 0):
         return str(value)
     return "" if value is None or np.isnan(value) else number(value, digits)
 
 
 def parameter_columns(data, *names) -> dict:
-    """Return a dict: head of a column -> parameter, for the `names` that a dataset has."""
+    """Return a dict: head of a column -> parameter. Names that the dataset lacks are left out."""
     parameters = parameters_of(data)
     return {HEADS[name]: parameters[name] for name in names if name in parameters}

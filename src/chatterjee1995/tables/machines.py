@@ -11,12 +11,11 @@ ADVICE = {"build": "build it", "do_not_build": "do not build it"}
 
 
 def machines(datasets) -> pd.DataFrame:
-    """Return a table of machines: gap, displacements without damper, with damper, with absorber."""
+    """Return a table of machines: gap of the damper, advice, and largest displacements."""
     return pd.DataFrame([_row(name, data) for name, data in datasets.get("machines", {}).items()])
 
 
 def _row(name, data):
-    """Return the row of one machine."""
     made, asked = json.loads(data.attrs["machine"]), parameters_of(data)
     tolerance = 100 * asked["tolerances"].get("gap", 0.0)
     return {
@@ -34,6 +33,6 @@ def _row(name, data):
 
 
 def escape_or(size):
-    """Return a size as a number, or the word "escapes" if the size is infinite."""
+    """Return a displacement as a number, or the word "escapes" if it is infinite."""
     size = float(size)
     return "escapes" if np.isinf(size) else size

@@ -1,4 +1,4 @@
-"""Tables of the methods compared: accuracy against work, missed contacts, largest steps."""
+"""Tables that compare integrators and models: accuracy, missed contacts and largest steps."""
 
 import numpy as np
 import pandas as pd
@@ -8,7 +8,7 @@ from chatterjee1995.methods.labels import MODELS, method_in_words
 from chatterjee1995.reading import datasets as reading
 from impact_damper.data.datasets import decode, parameters_of
 
-# Quantity -> text of the accuracy that is required. `{:g}` is the largest error allowed.
+# Quantity -> words for the required accuracy. `{:g}` is replaced by the allowed error.
 WORDS = {
     "amplitude": "max |Z1|, relative error {:g}",
     "state": "state, error {:g}",
@@ -21,7 +21,10 @@ WORDS = {
 
 
 def models(datasets) -> pd.DataFrame:
-    """Return a table: for each scene and method the cheapest accurate run, or else the best run."""
+    """Return a table with one run of each method on each scene.
+
+    The run is the cheapest with the required accuracy. If there is none, it is the most accurate.
+    """
     rows = []
     for name, data in datasets.get("accuracy", {}).items():
         asked = parameters_of(data)["accuracy"]
@@ -59,7 +62,7 @@ def models(datasets) -> pd.DataFrame:
 
 
 def cheapest(data, labels):
-    """Return the index of the cheapest accurate run of all methods in `labels`, or None."""
+    """Return the index of the cheapest accurate run of the methods `labels`, or None."""
     meets = decode(data["meets_accuracy"]).values == "yes"
     meets &= np.isin(data["method"].values, labels)
     work = np.where(meets, data["operations"].values, np.inf)
@@ -67,7 +70,6 @@ def cheapest(data, labels):
 
 
 def _most_accurate(data, method):
-    """Return the index of a method's run with the least error, or None."""
     runs = np.flatnonzero(data["method"].values == method)
     if not len(runs):
         return None
@@ -79,7 +81,6 @@ def _most_accurate(data, method):
 
 
 def _errors(of):
-    """Return the columns with the errors of a run `of` on a scene without chaos."""
     return {
         "error of max |Z1|": float(of.amplitude_error),
         "error of the state": float(of.state_error),
@@ -89,7 +90,6 @@ def _errors(of):
 
 
 def _averages(data, of):
-    """Return columns with the averages of a run `of` on a chaotic scene, and reference values."""
     row = {}
     heads = {"contact_rate": "contacts a cycle", "displacement": "mean max |Z1|"}
     for key, head in (heads | {"exponent": "Lyapunov exponent"}).items():
@@ -100,7 +100,7 @@ def _averages(data, of):
 
 
 def missed_contacts(datasets) -> pd.DataFrame:
-    """Return a table of methods: how many contacts near grazing each method finds and misses."""
+    """Return a table of integrators: how many contacts near grazing each one finds and misses."""
     rows = []
     for name, data in datasets.get("missed_contacts", {}).items():
         contacts = int(reading.parameter(data, "passages")) * data.sizes["depth"]
@@ -130,7 +130,7 @@ def missed_contacts(datasets) -> pd.DataFrame:
 
 
 def stable_steps(datasets) -> pd.DataFrame:
-    """Return a table of the largest accurate step, by method, allowed error and stiffness r1."""
+    """Return a table of the largest accurate time step, for each method and contact stiffness."""
     rows = []
     for name, data in datasets.get("stable_steps", {}).items():
         cycle = 2 * np.pi / reading.parameter(data, "frequency")

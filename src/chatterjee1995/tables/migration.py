@@ -1,4 +1,4 @@
-"""Tables of migration: cases, release scans, policies. A release switches the damper off."""
+"""Tables of migration. A release switches the damper off; a release policy says when."""
 
 import numpy as np
 import pandas as pd
@@ -14,7 +14,7 @@ KINDS = {number: kind for kind, number in DAMPED_MOTION.items()}
 
 
 def migration(datasets) -> pd.DataFrame:
-    """Return a table of cases: to which free motions releases lead, and how control runs end."""
+    """Return a table: the share of releases that lead to each free motion, and times of runs."""
     rows = []
     for name, case in datasets.get("migration", {}).items():
         reached = case.trial_outcome == flag("trial_outcome", "reached")
@@ -51,14 +51,13 @@ def migration(datasets) -> pd.DataFrame:
 
 
 def _destination(motion):
-    """Return the column head for the share of releases that lead to a free motion."""
     if motion in ("unresolved", "other"):
         return f"share {motion}"
     return f"share to the {motion.replace('_', '-')}"
 
 
 def release_scan(datasets) -> pd.DataFrame:
-    """Return a table of release scans: the free motions to which releases lead, by range of W."""
+    """Return a table: to which free motions releases lead, and at which forcing frequencies."""
     rows = []
     for name, scan in datasets.get("release_scan", {}).items():
         ends = list(scan.free_motion.values)
@@ -90,14 +89,14 @@ def release_scan(datasets) -> pd.DataFrame:
 
 
 def _ranges(grid, chosen):
-    """Return the chosen values of a grid as text; neighbouring values are joined to a range."""
+    """Return chosen values of a grid as text. Neighbouring values are joined: "1.7 to 1.9, 2.1"."""
     runs = runs_of_true(np.isin(grid, chosen))
     ends = [dict.fromkeys([f"{grid[first]:.5g}", f"{grid[last - 1]:.5g}"]) for first, last in runs]
     return ", ".join(" to ".join(pair) for pair in ends)
 
 
 def release_policies(datasets) -> pd.DataFrame:
-    """Return a table of release policies: success, cycles and impacts, for each damper and W."""
+    """Return a table of release policies: how often and how fast each one succeeds."""
     rows = []
     for data in datasets.get("release_policies", {}).values():
         dims = ("case", "frequency", "policy")
@@ -122,7 +121,6 @@ def release_policies(datasets) -> pd.DataFrame:
 
 
 def _rule(one):
-    """Return a policy in words, with the parameters chosen for this policy."""
     words, cycles = POLICIES[str(one.policy.values)], f"K = {float(one.policy_hold):g}"
     return {
         "hold": f"{words}, {cycles}",
@@ -132,7 +130,7 @@ def _rule(one):
 
 
 def _with_interval(value):
-    """Return the text of a share or quantile and its confidence interval."""
+    """Return a value and its confidence interval as text, such as "0.9 (0.85 to 0.94)"."""
     middle, lower, upper = (
         f"{float(value.sel(bound=bound)):.3g}".replace("inf", "∞")
         for bound in ("share", "lower", "upper")

@@ -1,4 +1,4 @@
-"""Tables of responses: outcomes of starts; quasi-periodic, chaotic and subharmonic motions."""
+"""Tables of the outcomes of starts, and of quasi-periodic, chaotic and subharmonic motions."""
 
 import numpy as np
 import pandas as pd
@@ -10,7 +10,7 @@ from chatterjee1995.reading.datasets import Missing
 from chatterjee1995.tables.files import DAMPER, parameter_columns
 from impact_damper.data.motion_variables import OUTCOME
 
-# Stage whose datasets hold the outcome of each start -> words for the stage in the table.
+# Stage of the pipeline -> words for it in the table of outcomes.
 SWEPT = {
     "response": "frequency responses",
     "subharmonic": "starts on the free subharmonic",
@@ -19,7 +19,7 @@ SWEPT = {
 
 
 def outcomes(datasets) -> pd.DataFrame:
-    """Return a table of how many starts have each outcome."""
+    """Return a table that counts the starts with each outcome, one row for each dataset."""
     rows = []
     for stage, words in SWEPT.items():
         for name, data in reading.damped(datasets, stage).items():
@@ -37,7 +37,6 @@ def outcomes(datasets) -> pd.DataFrame:
 
 
 def _outcomes(stage, name, counts):
-    """Return a row that says how many starts have each outcome."""
     counts = {each: int(value) for each, value in dict(counts).items() if each != "absent"}
     starts = sum(counts.values())
     return {
@@ -58,7 +57,7 @@ def _outcomes(stage, name, counts):
 
 
 def quasi_periodic(datasets) -> pd.DataFrame:
-    """Return a table of quasi-periodic motions: frequencies, and starts that lead to each."""
+    """Return a table of quasi-periodic motions: frequencies, and how many starts lead to them."""
     rows = []
     for name, data in reading.damped(datasets, "response").items():
         for motion in _motions(data, reading.is_outcome(data, "quasi_periodic")):
@@ -84,7 +83,7 @@ def quasi_periodic(datasets) -> pd.DataFrame:
 
 
 def chaos(datasets) -> pd.DataFrame:
-    """Return a table of violent chaotic motions, with the cycles for which chaos lasts."""
+    """Return a table of violent chaotic motions, with the mean life of chaos in cycles."""
     rows = []
     for name, data in reading.damped(datasets, "response").items():
         try:
@@ -111,13 +110,12 @@ def chaos(datasets) -> pd.DataFrame:
 
 
 def _motions(data, chosen):
-    """Yield each motion of a response that the mask `chosen` selects, as a dataset."""
     for k, j in np.argwhere(chosen.transpose("frequency", "motion").values):
         yield data.isel(frequency=k, motion=j)
 
 
 def subharmonic(datasets) -> pd.DataFrame:
-    """Return a table of the one-third subharmonic without damper, and with damper where stable."""
+    """Return a table of the one-third subharmonic, without a damper and with each damper."""
     rows = []
     for name, free in reading.free(datasets, "branches").items():
         try:
@@ -149,7 +147,6 @@ def subharmonic(datasets) -> pd.DataFrame:
 
 
 def _subharmonic(name, damper, data):
-    """Return a row on a subharmonic. The caller fills the columns that are empty here."""
     columns = parameter_columns(data, "damping", "mass_ratio", "clearance")
     return (
         {"curve": name, "damper": damper}
@@ -162,7 +159,6 @@ def _subharmonic(name, damper, data):
 
 
 def _stable_part(part):
-    """Return the label of a branch, and the period, range of W and size of its stable part."""
     return {
         "branch": f"{part.branch.iloc[0] + 1}",
         "period": part.period.iloc[0],
