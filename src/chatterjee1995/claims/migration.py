@@ -24,7 +24,7 @@ def _release_shares(case, kind, free_motion="non_resonance"):
 
 
 def release_phase(datasets):
-    """Return numbers that test claim 13: at W = 1.7 the next motion depends on the release phase."""
+    """Return numbers that test claim 13: at W = 1.7 the phase of release selects period 1 or 3."""
     case = reading.get(datasets, "migration", "figure_15")
     frequency = reading.parameter(case, "frequency")
     lower, upper = orbits.subharmonic_range(orbits.free_of(datasets, case))

@@ -110,7 +110,7 @@ def approach(axes, start, centre, radius, level, color, rate, **keywords):
 
 
 def passage(axes, low, high, edge, words, upward):
-    """Draw the switching of the damper: an upright arrow between two planes, and words beside it."""
+    """Draw the switching of the damper: a vertical arrow between two planes, with its text."""
     x = low[0]
     ends = [(x, low[1] + 0.03), (x, edge)]
     parts.stroke(axes, [(x, edge), high], "detail", linestyle=(0, (2, 2)))
