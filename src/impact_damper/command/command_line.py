@@ -175,7 +175,7 @@ def response(
 
 
 def different(sizes, shares, alike=1e-4):
-    """Add up the shares of nearly equal sizes. Return {size: share} by ascending size."""
+    """Return {size: share} by ascending size. The shares of nearly equal sizes are added up."""
     found, last = {}, -1.0
     for size, share in sorted(zip(map(float, sizes), map(float, shares), strict=True)):
         if size > last * (1 + alike):
@@ -258,8 +258,8 @@ def report(
 
 
 def read(path):
-    """Return the content of a YAML file, and its `Machine`. Local imports make `--help` fast."""
-    from impact_damper.command.machine_file import read_machine_file
+    """Return the content of a machine's YAML file, and the `Machine` that it describes."""
+    from impact_damper.command.machine_file import read_machine_file  # here: `--help` stays fast
     from impact_damper.model.machine import Machine
 
     given = read_machine_file(path)
@@ -267,7 +267,7 @@ def read(path):
 
 
 def answer(decide, made, machine_file, file, force, as_json):
-    """Compute a design or an evaluation, save its data and its page, and print the answer."""
+    """Compute a design or an evaluation, save its data and a page about it, print the answer."""
     from impact_damper.data.datasets import decode, save
     from impact_damper.model.machine import describe_si
     from impact_damper.plot import conclusion
@@ -307,7 +307,7 @@ def quantity(text):
 
 
 def write_report(data, file, folder):
-    """Write a page about `data`, kept in `file`, into a folder. Return the path of the page."""
+    """Write a page about the dataset in `file` into a folder. Return the path of the page."""
     from impact_damper.plot.pages.render import write_page
 
     name = Path(data.attrs.get("input_file", file.name)).stem
@@ -317,7 +317,7 @@ def write_report(data, file, folder):
 
 
 def kept(data, output):
-    """Save a dataset if `output` is a path. Return the line to print about it, in a list."""
+    """Save a dataset to `output`, if that is a path. Return a list of the lines to print."""
     if output is None:
         return []
     from impact_damper.data.datasets import save
@@ -327,7 +327,7 @@ def kept(data, output):
 
 
 def tell(as_json, words, numbers):
-    """Print lines for people, or one JSON object."""
+    """Print the lines `words`, or with `as_json` the dictionary `numbers` as a JSON object."""
     print(json.dumps(numbers) if as_json else "\n".join(words))
 
 

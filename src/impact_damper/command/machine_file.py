@@ -18,7 +18,7 @@ from impact_damper.model.units import QUANTITIES, absolute_value, check_si, si_v
 
 
 class AllowedQuantity(Allowed):
-    """The allowed values of a physical quantity. A checked value stays as the user wrote it."""
+    """Allowed values of a physical quantity. A value that is checked stays as the user wrote it."""
 
     def __init__(self, quantity, bounds, meaning, absolute=()):
         unit = QUANTITIES[quantity].unit
@@ -47,7 +47,7 @@ class AllowedQuantity(Allowed):
 
 
 def quantity_of(quantity, meaning="", absolute=(), **bounds):
-    """Return the type of a quantity within bounds.
+    """Return the pydantic type of a physical quantity within bounds.
 
     `absolute` names other quantities. Text in one of their units is allowed too, such as "0.2 mm".
     """
@@ -55,7 +55,7 @@ def quantity_of(quantity, meaning="", absolute=(), **bounds):
 
 
 def fields_of(part, *, optional=False):
-    """Return fields of a pydantic model from a dataclass. If `optional`, no field is required."""
+    """Return a pydantic field for each field of a dataclass. If `optional`, none is required."""
     found = {}
     for each in fields(part):
         facts = each.metadata
@@ -66,10 +66,10 @@ def fields_of(part, *, optional=False):
 
 
 class Given(section.Section):
-    """Base of pydantic models. Their keys are the arguments of a dataclass in SI units."""
+    """Base of sections whose keys are the arguments of a dataclass in SI units."""
 
     def values(self) -> dict:
-        """Return the values that are given, keyed by name."""
+        """Return {key: value} without the keys that are left out."""
         return {key: value for key, value in self if value is not None}
 
 
@@ -118,7 +118,7 @@ Body = create_model("Body", __base__=Given, **fields_of(Machine))
 
 
 def deviation_of(what, *absolute):
-    """Return an optional field for the deviation of `what`. `absolute` is as in `quantity_of`."""
+    """Return an optional field: relative deviation of `what`, or a text in a unit of `absolute`."""
     meaning = f"largest relative deviation of {what}"
     return quantity_of("number", meaning, absolute, least=0, most=0.9), None
 
@@ -178,7 +178,6 @@ class MachineEntry(section.Section):
             yield f"{section.dotted(path)}: {error}" if path else str(error)
 
     def _lacking(self, path):
-        """Yield a message for each missing key, and for `contact_stiffness` besides `contact`."""
         rival, ball = self.absorber.values(), self.contact.values()
         for key in Rival.model_fields:
             if rival and key not in rival:

@@ -66,7 +66,7 @@ class Allowed:
 
 
 def number(meaning="", *, above=None, least=None, most=None, why="", also=""):
-    """Return the type of a finite number. Errors say that `also`, such as text, is allowed too."""
+    """Return the type of a finite number. Errors name `also` as a value that is allowed too."""
     bounds = {"greater than": above, "at least": least, "at most": most}
     words = [f"a finite number{also and f' or {also}'}", *_bounds(bounds)]
     kind = confloat(strict=True, allow_inf_nan=False, gt=above, ge=least, le=most)
@@ -174,18 +174,17 @@ class ConfigurationError(ValueError):
 
 
 class Section(BaseModel):
-    """Keys with values. Unknown keys are errors, and so are missing keys without a default."""
+    """A mapping in a YAML file. Unknown keys and missing keys without a default are errors."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     def contradictions(self, path, config):
-        """Yield a message for each contradiction. `path`: keys from `config` to this section."""
+        """Yield messages about contradictions. `path` holds the keys from `config` to `self`."""
         yield from ()
 
     @model_validator(mode="wrap")
     @classmethod
     def _name_keys(cls, value, handler):
-        """Name all known keys in errors about unknown keys, all needed keys if one is missing."""
         try:
             return handler(value)
         except ValidationError as error:
@@ -196,7 +195,7 @@ class Section(BaseModel):
 
     @classmethod
     def _worded(cls, value, detail):
-        """Return an error of pydantic, `detail`, with a message of this package."""
+        """Return `detail`, an error of pydantic, with clearer words that name the known keys."""
         kind, path, given = detail["type"], detail["loc"], detail["input"]
         known = sorted(cls.model_fields)
         if not path:
@@ -267,7 +266,6 @@ def problems_of(error) -> list:
 
 
 def _line(detail):
-    """Return the line that reports one error of pydantic."""
     path = [key for key in detail["loc"] if key not in (NUMBER, RANGE)]
     if path[-1:] == ["[key]"]:
         return f"{dotted(path[:-1])}: name {detail['msg']}"

@@ -39,16 +39,17 @@ def variable(name, data, dims=None) -> xr.Variable:
 
 
 def shown_variable(name, values):
-    """Return a registered variable of a machine, with the unit of its kind (`QUANTITIES`)."""
+    """Return `values` as the variable registered under `name`, in the unit used for machines."""
     found = variable(name, values)
     found.attrs["units"] = QUANTITIES[VARIABLES[name].kind].label
     return found
 
 
 def dataset(data, coordinates, parameters, title, model=None) -> xr.Dataset:
-    """Return a dataset of registered variables, in mm, Hz and so on if `model` is of a machine.
+    """Return a dataset of registered variables, given as dimensionless arrays.
 
-    `data` and `coordinates` map registered names to dimensionless arrays or pairs (dims, array).
+    `data` and `coordinates` map registered names to arrays or pairs (dims, array). If `model` has a
+    machine, the dataset is converted to mm, Hz and so on.
     """
 
     def labelled(items):
@@ -94,7 +95,7 @@ def from_si(data, scales) -> xr.Dataset:
 
 
 def _converted(data, convert, scales):
-    """Return a copy of a dataset. convert(values, unit) replaces the values that have a unit."""
+    """Return a copy of a dataset in which convert(values, unit) replaces all values with a unit."""
     found = {}
     for name, each in data.variables.items():
         kind = _kind(name, data)
@@ -110,7 +111,7 @@ def _converted(data, convert, scales):
 
 
 def _kind(name, data):
-    """Return the kind of a variable. "followed" becomes the kind of the parameter that varies."""
+    """Return the kind of a variable. For "followed" it is the kind of the varied parameter."""
     kind = VARIABLES[name].kind
     if kind == "followed":
         parameter = parameters_of(data).get("parameter")
@@ -121,7 +122,6 @@ def _kind(name, data):
 
 
 def _name_unit(variable, kind):
-    """Set the unit and the description of a converted variable, in place."""
     if kind == "state":
         variable.attrs["units"] = STATE_UNITS
     elif kind == "mixed":
@@ -211,7 +211,7 @@ def oscillator_of(data) -> Oscillator:
 
 
 def damper_of(data, **others) -> Damper:
-    """Return the damper of a dataset. `others` are fields that vary over the dataset."""
+    """Return the damper of a dataset. `others` gives the fields that vary over the dataset."""
     return Damper(**pick(Damper, parameters_of(data)), **others)
 
 

@@ -31,10 +31,11 @@ def wilson(successes, total):
 
 
 def bounding_rank(share, total, doubt=DOUBT) -> int:
-    """Return k: at least `share` of all values lie below the k-th largest of `total` samples.
+    """Return k, for which the k-th largest of `total` samples is a bound.
 
-    This holds with the confidence 1 - doubt for any distribution (S. S. Wilks, Ann. Math. Stat.
-    12, 1941). With too few samples k is 0.
+    With the confidence 1 - doubt at least the fraction `share` of all values lies below this bound.
+    This holds for any distribution (S. S. Wilks, Ann. Math. Stat. 12, 1941). With too few samples
+    there is no bound, and k is 0.
     """
     return int(np.sum(bdtr(np.arange(total), total, 1 - share) <= doubt))
 

@@ -66,7 +66,8 @@ def _named_values(text):
     return {name: int(value) for name, value in pairs}
 
 
-# Labels of states that lead to no attractor. `mixed`: to several, by the place of the loose mass.
+# Labels of states that lead to no attractor. A state is `mixed` if the place of the loose mass
+# decides to which of several attractors it leads.
 BASIN_LABEL = {
     "unresolved": -1,
     "escaped": -2,

@@ -50,10 +50,7 @@ def check_writable(path):
 
 
 def _reason(folder, error):
-    """Return one line that says why a file could not be written.
-
-    `error` of the NetCDF library is vague. The error from writing a small trial file says more.
-    """
+    """Return why a file could not be written. A trial file gives a clearer error than NetCDF."""
     trial = folder / f".trial-{os.getpid()}"
     try:
         with trial.open("wb") as file:
@@ -67,7 +64,7 @@ def _reason(folder, error):
 
 
 def check_length(path) -> None:
-    """Raise BrokenFileError if a file is not NetCDF-4, or has not the length its header states."""
+    """Raise BrokenFileError if a file is not NetCDF-4, or not as long as its header states."""
     with open(path, "rb") as file:
         start = file.read(LENGTH.stop)
     if not start.startswith(SIGNATURE):

@@ -18,11 +18,13 @@ from impact_damper.design.task import labelled
 from impact_damper.model.machine import TunedAbsorber
 from impact_damper.theory.roots import polynomial_roots
 
-# POINTS: least number of frequencies for tuning an absorber, near the resonance or over a band.
-# REACH: largest distance of a frequency from the resonance, in widths of the resonance peak.
+# An absorber is tuned for POINTS frequencies near the resonance or, if a band is given, for POINTS
+# frequencies in the band and those near the resonance that lie in it. Near the resonance means at
+# a distance of at most REACH widths of the resonance peak.
 POINTS, REACH = 1001, 8.0
-# Bounds of ln(absorber frequency/machine frequency) and of ln(damping ratio of the absorber).
-# TOLERANCE (relative) and SEED: arguments of the optimizer `differential_evolution`.
+# The optimizer `differential_evolution` searches ln(absorber frequency/machine frequency) within
+# the bounds TUNINGS, and ln(damping ratio of the absorber) within the bounds DAMPINGS. TOLERANCE
+# (relative) and SEED are arguments of the optimizer.
 TUNINGS, DAMPINGS, TOLERANCE, SEED = (-1.5, 1.0), (-7.0, 0.7), 1e-7, 1995
 COMPETITORS = ("bare", "tuned", "own")
 # Factors by which the machine's excitation is multiplied, from 1/4 to 4.
@@ -37,7 +39,8 @@ def absorber_responses(
 
     One absorber has the mass `mass` (kg) and is tuned over `band` (Hz). The other, `own`, may be
     None. The excitation is multiplied by each number in `force_shares`. `detunings` are relative
-    changes of the absorber's stiffness. Without linear stiffness the tuned absorber has NaN.
+    changes of an absorber's stiffness. If the machine has no linear stiffness, no absorber can be
+    tuned, and its displacements are NaN.
     """
     names = COMPETITORS[: 2 if own is None else 3]
     sizes = np.full((len(names), len(detunings), len(frequencies), len(force_shares)), np.nan)
@@ -68,7 +71,7 @@ def absorber_responses(
 
 @cache
 def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
-    """Return the absorber that minimizes the peak displacement over `band` without cubic spring."""
+    """Return the best absorber over `band` (Hz) for the machine without its cubic spring."""
     ratio, linear = mass / machine.mass, replace(machine, cubic_stiffness=0.0)
     frequencies = _frequencies(linear, ratio, band)
 
@@ -87,7 +90,6 @@ def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
 
 
 def _frequencies(machine, ratio, band):
-    """Return frequencies (Hz) for the tuning: over `band` or, if it is None, near resonance."""
     critical = 2 * math.sqrt(machine.linear_stiffness * machine.mass)
     width = min(math.sqrt(ratio) + machine.viscous_damping / critical, 1.0)
     ends = 1 + REACH * width * np.array([-1.0, 1.0])
@@ -102,7 +104,7 @@ def response(machine, absorber, frequencies, force_shares=(1.0,)) -> np.ndarray:
     """Return amplitudes (m) for each frequency (Hz) and each factor in `force_shares`.
 
     Without a cubic spring the amplitudes are exact. With a cubic spring they are the largest stable
-    solutions of the harmonic balance, or infinite if a softening spring has none below its barrier.
+    solutions of the harmonic balance, or infinite if no solution lies below its barrier.
     """
     oscillator = machine.oscillator()
     pairs = zip(*_dynamics(machine, absorber, np.asarray(frequencies)), strict=True)
@@ -114,7 +116,7 @@ def response(machine, absorber, frequencies, force_shares=(1.0,)) -> np.ndarray:
 
 
 def _dynamics(machine, absorber, frequencies):
-    """Return two dimensionless arrays over frequencies (Hz): K - m w^2 q, and F or |m1 + q m| A."""
+    """Return complex stiffness and force amplitude at each frequency (Hz), both dimensionless."""
     scales, oscillator = machine.scales, machine.oscillator()
     w = scales.from_si(frequencies, "frequency")
     force = oscillator.force + oscillator.unbalance * w**2
@@ -130,7 +132,7 @@ def _dynamics(machine, absorber, frequencies):
 
 
 def _amplitude(oscillator, stiffness, force):
-    """Return the largest stable solution a of |stiffness + (3/4) k3 a^2| a = force, or infinity."""
+    """Return the largest stable a with |stiffness + (3/4) k3 a^2| a = force, infinity if none."""
     hardening = oscillator.hardening
     if hardening == 0:
         return force / abs(stiffness)

@@ -28,7 +28,7 @@ WATCHED = 100
 
 
 def force_map(task, decision, progress=None) -> xr.Dataset:
-    """Return bounds of the displacement for each frequency and each factor of the excitation."""
+    """Return a map of the displacement bound over forcing frequency and size of the excitation."""
     critical = float(decision["promised_frequency"])
     frequencies, shares = task.few(FREQUENCIES, critical), np.array(SHARES)
     sets = np.tile(NOMINAL, (len(shares), 1))
@@ -44,8 +44,9 @@ def force_map(task, decision, progress=None) -> xr.Dataset:
 def other_masses(task, decision, progress=None) -> xr.Dataset:
     """Return a dataset that compares the damper of the task with a heavier damper.
 
-    One round of the search finds the heavier damper's gap. The dataset is empty if the task's
-    damper is to be built and keeps the limit, or if the heavier mass exceeds the machine's mass.
+    A short search finds the gap of the heavier damper. The dataset is empty if the damper of the
+    task is worth building and keeps the displacement limit. It is also empty if the heavier loose
+    mass exceeds the mass of the machine.
     """
     fails = named(decision, "decision") == "do_not_build"
     fails |= named(decision, "limit_status") == "missed"
@@ -67,7 +68,6 @@ def other_masses(task, decision, progress=None) -> xr.Dataset:
 
 
 def _force(task, gap, frequency):
-    """Return the largest contact force (N) of the largest motion at a gap (mm), NaN if escaped."""
     cell = Cell(1e-3 * gap, frequency)
     motions = run(task, [cell], task.effort.starts, ("masses",))
     k, p = int(np.argmax(motions.peaks[0])), task.packed(*cell)

@@ -17,27 +17,28 @@ from impact_damper.motions.records import AT_REST, DRIFTING, NON_COLLIDING, SETT
 from impact_damper.motions.start_states import random_starts
 from impact_damper.motions.steady import run_chunks
 
-# Outcomes after which a motion is not run on: LASTING after the first run, KEPT after later runs.
+# A motion is not continued after these outcomes: LASTING in its first run, KEPT in later runs.
 LASTING = (SETTLED, NON_COLLIDING, AT_REST, DRIFTING)
 KEPT = (SETTLED, NON_COLLIDING, AT_REST)
 # Purposes for which starts are drawn. The seed of the starts depends on the purpose. The search for
 # a gap and the confirmation of the gap therefore use different starts.
 STREAMS = "search compared confirmed orbit forces masses repeated shocks searched_again".split()
-# At once, a thread draws the starts of up to DRAWN cells, and runs up to FOLLOWED motions. After
-# TOGETHER regimes have been run on, `Motions.largest` computes the bounds of all cells again.
+# A thread draws the starts of DRAWN cells at a time, and runs FOLLOWED motions at a time.
+# `Motions.largest` continues up to TOGETHER regimes, then computes the bounds of all cells again.
 DRAWN, FOLLOWED, TOGETHER = 4, 64, 8
-# In a regime each largest displacement is at most this factor x the next smaller one.
+# Two unsettled motions, neighbours in size, are in one regime if their ratio is at most APART.
 APART = 1.3
 # A block peak is the largest displacement of a motion in BLOCK cycles. `return_level` extrapolates
-# the TAIL largest block peaks of a regime to the displacement exceeded once in HORIZON cycles.
+# the TAIL largest block peaks to the displacement that is exceeded once in HORIZON cycles.
 BLOCK, TAIL, HORIZON = 50, 50, 100_000
-# Numbers of cycles, summed over the motions of a regime. POOLED: least number for extrapolation.
-# MOST_POOLED: number after which the regime is not run further.
+# The cycles of all motions of a regime are added up. The displacement is extrapolated if the sum is
+# POOLED or more. A regime is not run further if the sum is MOST_POOLED or more.
 POOLED, MOST_POOLED = 25_000, 200_000
-# Below POOLED cycles the displacement is raised by this fraction for each doubling up to POOLED.
+# With fewer cycles the displacement is not extrapolated. It is then raised by the fraction MISSING
+# for each time that the number of cycles must be doubled to reach POOLED.
 MISSING = 0.03
-# A run has QUARTERS parts. Each part has a largest displacement of all motions of the regime. If
-# these differ by at most STEADY (ROUGH to compare gaps) x the largest, nothing is extrapolated.
+# A run has QUARTERS parts, each with a largest displacement. If these differ at most by the
+# fraction STEADY, nothing is extrapolated. To compare gaps, ROUGH is used instead of STEADY.
 # SLACK: largest fraction by which a settled motion exceeds the displacement of its orbit.
 QUARTERS, STEADY, ROUGH, SLACK = 4, 0.002, 0.01, 0.001
 # Before a regime is run further, its motions get this number of cycles to settle.
@@ -45,7 +46,7 @@ CHECKED = 100
 
 
 class Cell(NamedTuple):
-    """A gap (m), a forcing frequency (Hz), and a factor for each value that may deviate."""
+    """A gap (m), a forcing frequency (Hz), and a factor for each value named in VARIED."""
 
     gap: float
     frequency: float
@@ -55,7 +56,8 @@ class Cell(NamedTuple):
 def draw_starts(task, cells, count, stream) -> np.ndarray:
     """Return `count` random starts for each cell, shape (cells, count, 4).
 
-    The tuple `stream` determines the seed: a name in STREAMS, and numbers if a name is used again.
+    The tuple `stream` sets the seed. Its first entry is a name in STREAMS. Numbers follow if the
+    same name is used several times.
     """
     states, stop = np.empty((len(cells), count, 4)), np.zeros(1, bool)
     name, *turn = stream
@@ -111,10 +113,11 @@ class Motions:
         return [regime for regime in found if len(regime)]
 
     def measured(self, k, regime, rough=False) -> tuple:
-        """Return three values: displacement of a regime, True if known, True if tested.
+        """Return the displacement of a regime of cell k, and two booleans: known, tested.
 
-        Tested: no late block peak exceeds the displacement that is extrapolated from early ones.
-        `rough` is for comparing gaps. The displacement is then an estimate, and no bound.
+        A regime with a known displacement is not run further. The displacement is tested if no late
+        block peak exceeds what is extrapolated from early block peaks. `rough` is for comparing
+        gaps. The displacement is then an estimate, and no bound.
         """
         record, peaks = self.peaks[k, regime].max(), self.blocks[k][regime]
         peaks = peaks[:, np.isfinite(peaks).any(axis=0)]
@@ -137,14 +140,14 @@ class Motions:
         return return_level(peaks), tested or pooled >= MOST_POOLED, tested
 
     def numbers(self, k, rough=False) -> tuple:
-        """Return two arrays over the starts of cell k: displacements, and True where known."""
+        """Return the displacement of each motion of cell k, and a boolean array: True if known."""
         sizes, known = (1 + SLACK) * self.peaks[k], self.settled[k].copy()
         for regime in self.regimes(k):
             sizes[regime], known[regime], _ = self.measured(k, regime, rough)
         return sizes, known
 
     def bounds(self, rank) -> tuple:
-        """Return arrays over cells: `rank`-th largest displacement, its start's index, if known."""
+        """Return arrays over cells: `rank`-th largest displacement, its motion, whether known."""
         found = np.empty(len(self.peaks)), *np.empty((2, len(self.peaks)), int)
         for k in range(len(self.peaks)):
             sizes, known = self.numbers(k)
@@ -153,15 +156,16 @@ class Motions:
         return found
 
     def grows(self, k) -> bool:
-        """Return whether the displacement of a regime still grows after MOST_POOLED cycles."""
+        """Return whether a regime of cell k still moves further after MOST_POOLED cycles."""
         results = [self.measured(k, regime) for regime in self.regimes(k)]
         return any(known and not tested for _, known, tested in results)
 
     def largest(self, rank, least=0.0, left_out=()) -> np.ndarray:
         """Run motions until the largest bound of all cells is known. Return the bounds.
 
-        The bound of a cell is the `rank`-th largest displacement of its motions. The runs end
-        earlier if no unknown bound exceeds `least`. Cells with indices in `left_out` are not run.
+        The bound of a cell is the `rank`-th largest displacement of its motions. In a cell that has
+        not been run long enough, the bound is an estimate. The cell is run further if the estimate
+        exceeds `least` and all known bounds. Cells with indices in `left_out` are never run.
         """
         while True:
             bounds, places, known = self.bounds(rank)
@@ -177,8 +181,8 @@ class Motions:
     def follow(self, k, regime) -> None:
         """Run a regime of cell k until its number of cycles has doubled.
 
-        The first call runs POOLED/2 cycles or more, and replaces displacements of earlier cycles,
-        which may include transients.
+        The first call runs POOLED/2 cycles or more, and replaces the displacements of earlier
+        cycles, because these may be transients.
         """
         loud = regime[~self._settle(k, regime)]
         if not len(loud):
@@ -195,7 +199,7 @@ class Motions:
         self.peaks[k, loud] = np.maximum(before, peaks[loud].max(axis=1))
 
     def _settle(self, k, places):
-        """Run motions of cell k for at most CHECKED cycles. Return True for each settled motion."""
+        """Run motions of cell k for at most CHECKED cycles. Return a mask of those that settle."""
         effort = self.task.effort
         found = ensemble.settle(
             np.repeat(self.parameters[k : k + 1], len(places), axis=0),
@@ -270,11 +274,12 @@ def peaks_of_blocks(task, parameters, states, number, cycles) -> np.ndarray:
 
 
 def return_level(peaks) -> float:
-    """Return the displacement exceeded once in HORIZON cycles, at least the largest block peak.
+    """Return the displacement that is exceeded once in HORIZON cycles, from block peaks.
 
     Excesses of peaks over a high level are assumed to be distributed exponentially (S. Coles, An
     Introduction to Statistical Modeling of Extreme Values, 2001, chapter 4). A bounded motion has
-    fewer large peaks than this distribution, so the result is too large rather than too small.
+    fewer large peaks than this distribution, so the result is too large rather than too small. It
+    is at least the largest block peak.
     """
     peaks = np.sort(peaks[np.isfinite(peaks)])
     tops = peaks[-TAIL - 1 :]

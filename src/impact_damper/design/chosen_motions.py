@@ -16,8 +16,8 @@ from impact_damper.motions import traces
 from impact_damper.motions.response import frequency_response
 from impact_damper.motions.strobe_map import strobe_time
 
-# SAMPLES: number of states in a forcing cycle that are searched for the largest displacement.
-# WATCHED: number of cycles in which a motion is measured if it has not settled.
+# SAMPLES: number of states in each forcing cycle among which the largest displacement is found.
+# WATCHED: number of cycles over which a motion is measured if it has not settled.
 SAMPLES, WATCHED = 64, 200
 # STARTS: largest number of random starts at each frequency of the response.
 # FURTHER: largest number of cycles that are added to classify a motion that has not settled.
@@ -35,7 +35,7 @@ COSTS = {
 
 
 def response_and_costs(task, decision, progress=None) -> xr.Dataset:
-    """Return a dataset: motions with the chosen damper, and costs of the largest motions."""
+    """Return the motions with the chosen damper, and impacts, forces and losses of the largest."""
     effort = task.effort
     settling = replace(effort.settling, further=FURTHER)
     searched = {"starts": min(STARTS, effort.starts), "seed": effort.seed, "settling": settling}
@@ -50,9 +50,9 @@ def response_and_costs(task, decision, progress=None) -> xr.Dataset:
 def reached_motions(task, choice, response) -> xr.Dataset:
     """Return a dataset of the largest motion reached at each frequency, with its costs.
 
-    A motion is reached if a random start or, for a motion with contacts, a placed start leads to
-    it (see `motions.start_states`). `untouched_displacement` is the largest displacement among
-    motions without contacts to which only placed starts lead.
+    A motion is reached if a random start leads to it. A motion with contacts is also reached if a
+    placed start leads to it (see `motions.start_states`). `untouched_displacement` is the largest
+    displacement of all motions without contacts to which only placed starts lead.
     """
     sizes = response["maximum_displacement"].values
     placed = response["origin"].values == flag("origin", "placed_start")
@@ -74,11 +74,7 @@ def reached_motions(task, choice, response) -> xr.Dataset:
 
 
 def _measured(task, case, size, state, periods):
-    """Return {name of a variable: value}: costs of a motion in a cell over `periods` cycles.
-
-    `size` (mm) is the largest displacement in earlier runs, infinite if the motion escaped. `state`
-    is the state of the motion at a strobe (a fixed phase of the forcing).
-    """
+    """Return displacement and costs of a motion by name. `size` (mm) is infinite if it escapes."""
     if not np.isfinite(size):
         return dict.fromkeys(("pressure_by_frequency", *COSTS), np.nan) | {
             "reached_displacement": size,

@@ -14,22 +14,22 @@ from impact_damper.design.promise import Promise, factor_sets
 from impact_damper.design.search import score, search, search_around
 from impact_damper.design.task import NOMINAL, NUMERICAL, SIDES, VARIED, Task, labelled
 
-# At most ROUNDS gaps are tried. The trials end if the search chooses a tried gap, or if the least
-# promised displacement so far is at most CONFIRMED x the displacement that the search now expects.
+# Up to ROUNDS gaps are run with new starts. The rounds end early if the search chooses a gap again,
+# or if the least promised displacement is at most CONFIRMED x the one that the search expects.
 CONFIRMED, ROUNDS = 1.05, 4
-# Nearby gaps are run again if the promised displacement exceeds SURPRISE x the search's result.
+# Nearby gaps are run again if new starts give more than SURPRISE x the displacement of the search.
 SURPRISE = 1.1
 
 
 class Tried(NamedTuple):
-    """A gap (mm) that was tried, and bounds of the displacement at this gap."""
+    """A gap (mm) that was run with new starts, and the bounds of the displacement at this gap."""
 
     gap: float
     promise: Promise
 
     @property
     def harmful(self) -> np.ndarray:
-        """Sets of factors for runs at other gaps: nominal, and the worst set with 1 for the gap."""
+        """Nominal and worst set of factors, for other gaps. The factor of the gap is 1 in both."""
         worst = self.promise.sets[self.promise.worst[0]].copy()
         worst[0] = 1
         return np.unique([NOMINAL, worst], axis=0)
@@ -71,13 +71,13 @@ def evaluate_gap(task: Task, progress=None) -> xr.Dataset:
 
 
 def confirm(task, gap, turn, sets, progress=None) -> Tried:
-    """Confirm a gap (mm) with new starts. `turn`, the number of earlier calls, sets the seed."""
+    """Return bounds at a gap (mm) from new starts. `turn`, a count of earlier calls, is a seed."""
     stream = "confirmed", turn
     return Tried(gap, Promise(task, 1e-3 * gap, sets, stream, progress=progress).refined())
 
 
 def learn(task, tried, turn, curve, progress=None) -> None:
-    """Put the bounds that new starts gave at a gap into the curve that the search has computed."""
+    """Put the bounds at a tried gap into the curve. If they are large, run nearby gaps again."""
     gap, promise = tried.gap, tried.promise
     sizes, factors = promise.by_set(), promise.sets[:, 0]
     expected = curve.within(*np.array(task.gap_ends(gap))[:, None])[0]
@@ -173,10 +173,7 @@ def conclude(task, found, curve, status) -> xr.Dataset:
 
 
 def rivals(task) -> xr.Dataset:
-    """Return largest displacements with three absorbers: tuned, detuned, and `task.absorber`.
-
-    If the computation fails, the results are NaN, and `addition_status` of `competitors` is failed.
-    """
+    """Return the largest displacement with each of three absorbers, NaN if a computation fails."""
     names = ("tuned_displacement", "detuned_displacement", "own_absorber_displacement")
     values = dict.fromkeys(names, np.nan)
     given = task.machine, task.mass, task.grid, [1.0]

@@ -20,7 +20,7 @@ def measured_costs(p, y, begin, periods) -> dict:
 
     `y` is the state at the time `begin`. `impact_rate` and `impact_speed` include only contacts
     that begin in these cycles. Accelerations are absolute. After an escape, rates, forces,
-    accelerations and powers are NaN. `absolute_displacement` is for moving bases, otherwise NaN.
+    accelerations and powers are NaN. `absolute_displacement` is NaN unless the base moves.
     """
     time = periods * 2 * np.pi / p[FREQUENCY]
     panels = sampled(p, y, begin, begin + time, POLISH_TOLERANCE)
@@ -46,9 +46,10 @@ def measured_costs(p, y, begin, periods) -> dict:
 
 
 def pressure_costs(machine, damper, contact, speed) -> tuple[float, str]:
-    """Return the pressure (Pa) of an elastic impact, and "yes" or "no" (yielding) or "unknown".
+    """Return the pressure (Pa) of an elastic impact, and whether the material yields under it.
 
-    `contact` is a HertzContact, or None if unknown. `speed` is the largest speed of impact, m/s.
+    The second value is "yes", "no" or "unknown". `contact` is a HertzContact, or None if unknown.
+    `speed` is the largest speed of impact, m/s.
     """
     if contact is None:
         return np.nan, "unknown"

@@ -180,9 +180,9 @@ def evaluate_damper(
 
 
 def answer(task, decide, title, folder, progress) -> xr.Dataset:
-    """Return the dataset of a task: the decision by the function `decide`, and its additions.
+    """Return the result of a task: the decision, computed by `decide`, and additional datasets.
 
-    An addition that fails with a numerical error is left out, and flagged in `addition_status`.
+    If an additional dataset fails with a numerical error, it is left out and flagged.
     """
     step = Steps(folder, progress, task.describe()).step
     decision = step("decision", decide, task)
@@ -240,7 +240,6 @@ class Steps:
 
 
 def _sources():
-    """Return a digest of all Python files of the package."""
     digest = hashlib.sha256()
     for path in sorted(Path(__file__).parents[1].rglob("*.py")):
         digest.update(path.read_bytes())

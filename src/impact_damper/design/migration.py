@@ -98,7 +98,7 @@ def _case(task, gap, frequency):
 
 
 def release_time(case, seed, longest_hold, settling, stop) -> float:
-    """Return the number of cycles from switching on to the small motion; infinity if never."""
+    """Return the cycles from switching the damper on to the small free motion, or infinity."""
     draws = np.random.default_rng(seed).random((1, 3))
     _, log = control(case, draws, longest_hold, settling, 0, None, stop)
     reached = log["destination"][0] == FREE_MOTION["non_resonance"]

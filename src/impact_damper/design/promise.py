@@ -16,12 +16,12 @@ CORNERS = 8
 # A finite peak is known if the last round raised it at most by the fraction PEAK, and if a parabola
 # through the peak and its two neighbours is higher than the peak by at most this fraction.
 NEAR, PEAK, SPLITS = 0.9, 0.01, 4
-# Sets other than the nominal set are first run at half of the frequencies, but at least FEWEST.
+# A set of factors that is not nominal is first run at half of the frequencies, but at least FEWEST.
 FEWEST = 9
 # A cell has rare motions if its bound exceeds RARE x the largest usual displacement of all cells.
-# Such cells are run again with MORE x as many starts, SOME cells at a time, largest bounds first.
-# The repetition ends when a new bound exceeds KEPT x the least old bound of these SOME cells,
-# because the old bounds of the remaining cells are smaller.
+# Cells with rare motions are run again with MORE x as many starts, in groups of SOME cells. The
+# cells with the largest bounds come first. After a group whose least old bound was b, the bounds of
+# the cells that remain are below b. If a new bound exceeds KEPT x b, they are not run again.
 RARE, MORE, SOME, KEPT = 1.2, 6, 8, 0.95
 
 
@@ -72,10 +72,7 @@ class Promise:
         return [Cell(self.gap, f, tuple(self.sets[k])) for k, f in cells]
 
     def _repeat_rare(self) -> None:
-        """Run cells with rare motions again, with more starts (see RARE).
-
-        A repeated cell has two bounds. With a probability of at least 1 - DOUBT both are right.
-        """
+        """Run cells with rare motions again, with more starts (see RARE)."""
         allowed = int(2 * (1 - self.task.share) * self.count) + 1
         usual, bounds = (self.motions.bounds(rank)[0] for rank in (allowed, self.rank))
         for place, bound in self.again.items():
@@ -83,6 +80,7 @@ class Promise:
         rare = np.flatnonzero(bounds > RARE * np.maximum(usual, usual.max()))
         rare = [place for place in rare[np.argsort(-bounds[rare])] if place not in self.again]
         total = MORE * self.count
+        # Both bounds of a repeated cell are right with a probability of at least 1 - DOUBT.
         used = bdtr(self.rank - 1, self.count, 1 - self.task.share)
         rank = bounding_rank(self.task.share, total, DOUBT - used)
         while rare and rank:
@@ -97,7 +95,7 @@ class Promise:
                 return
 
     def refined(self) -> "Promise":
-        """Add frequencies until the peaks are known, at most SPLITS times. Return the object."""
+        """Add frequencies beside peaks until the peaks are known (see PEAK). Return `self`."""
         before = {}
         for _ in range(SPLITS):
             cells = []
@@ -113,12 +111,12 @@ class Promise:
         return self
 
     def by_set(self) -> np.ndarray:
-        """Return the peak of each set of factors, its largest bound (mm) at all frequencies."""
+        """Return the peak of each set of factors: its largest bound (mm) over all frequencies."""
         owners = np.array([k for k, _ in self.cells])
         return np.array([self.bounds[owners == k].max() for k in range(len(self.sets))])
 
     def over_frequency(self, k) -> tuple:
-        """Return two arrays for set k: ascending frequencies (Hz), and bounds (mm)."""
+        """Return ascending frequencies (Hz), and the bounds (mm) at them for set k of factors."""
         places = [place for place, cell in enumerate(self.cells) if cell[0] == k]
         frequencies = np.array([self.cells[place][1] for place in places])
         order = np.argsort(frequencies)
@@ -138,7 +136,7 @@ class Promise:
 def is_peak_known(frequencies, bounds, before) -> bool:
     """Return whether the peak, the largest of `bounds`, is known (see PEAK).
 
-    `before` is the peak before the last round that added frequencies, or 0 before the first round.
+    `before` is the peak before the last frequencies were added, or 0 if none were added.
     """
     k = int(np.argmax(bounds))
     if np.isinf(bounds[k]):
@@ -160,7 +158,11 @@ def beside_peak(frequencies, bounds) -> list:
 
 
 def factor_sets(task, gap) -> np.ndarray:
-    """Return sets of factors for a gap (mm): nominal, two ends of the gap's tolerance, corners."""
+    """Return the sets of factors to be run at a gap (mm), one in each row.
+
+    The first set is nominal. In the next sets only the gap deviates, to one end of its tolerance.
+    The remaining sets are corners (see CORNERS).
+    """
     widths = task.deviations(gap)
     signs = [(-1, 1) if width else (0,) for width in widths]
     corners = np.array(list(itertools.product(*signs)), float)
@@ -176,7 +178,7 @@ def factor_sets(task, gap) -> np.ndarray:
 
 
 def other_sets(task, gap) -> np.ndarray:
-    """Return `factor_sets` with the gap's factor set to 1, each different row once."""
+    """Return the rows of `factor_sets`, but with 1 as the factor of the gap. Rows do not repeat."""
     rows = factor_sets(task, gap)
     rows[:, 0] = 1
     return np.unique(rows, axis=0)

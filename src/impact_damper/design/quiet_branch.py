@@ -18,7 +18,7 @@ GAP_SPAN = (0.4, 2.0)
 
 
 def follow_quiet_orbit(task, choice, progress=None) -> xr.Dataset:
-    """Follow the quiet orbit over the gap, at the `branch_frequency` of the decision `choice`."""
+    """Return a dataset of the quiet orbit over the gap, at the `branch_frequency` in `choice`."""
     gap, frequency = float(choice["design_gap"]), float(choice["branch_frequency"])
     orbit = quiet_orbit(task, gap, frequency)
     cliff = float(choice["lost_gap"][1]) if decode(choice["lost_kind"])[1] == "jump" else np.inf
@@ -38,7 +38,7 @@ def quiet_orbit(task, gap, frequency) -> Orbit | None:
 
 
 def over_gap(task, gap, frequency, orbit, cliff) -> xr.Dataset:
-    """Return a dataset of a quiet orbit over the gap. `cliff` is a gap (mm), infinite if none."""
+    """Return a dataset of a quiet orbit over the gap. `cliff` (mm) is a gap, infinite if none."""
     gaps = sizes = moduli = np.empty(0)
     if orbit is not None:
         oscillator, damper, turning = task.system(1e-3 * gap, frequency)

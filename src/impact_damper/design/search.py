@@ -13,29 +13,32 @@ from impact_damper.design.cells import STREAMS, Cell, run
 from impact_damper.design.promise import MORE, other_sets
 from impact_damper.design.task import NOMINAL, Task
 
-# First search: at most GAPS gaps, frequencies `Task.few(FREQUENCIES)`, STARTS starts in each cell.
+# The first search computes up to GAPS gaps at the frequencies `Task.few(FREQUENCIES)`, with STARTS
+# random starts at each gap and frequency.
 GAPS, FREQUENCIES, STARTS = 80, 5, 10
-# Later search near the best gaps: at most ROUNDS rounds, CLOSE_STARTS starts in each cell,
-# frequencies `Task.few(CLOSE_FREQUENCIES)` and the worst frequencies of earlier rounds.
+# Up to ROUNDS later rounds compute gaps near the best gaps, with CLOSE_STARTS starts in each cell.
+# Their frequencies are `Task.few(CLOSE_FREQUENCIES)` and the worst frequencies of earlier rounds.
 CLOSE_FREQUENCIES, CLOSE_STARTS, ROUNDS = 11, 24, 5
-# A gap's worst displacement is computed again if above DOUBTED x its largest usual displacement.
+# The worst displacement at a gap is computed again, with more starts, if it exceeds DOUBTED x the
+# largest usual displacement at this gap.
 DOUBTED = 1.1
 # Two neighbouring gaps have a jump between them if the ratio of their displacements exceeds JUMP.
-# The interval between them is split if log(gap ratio) exceeds SMOOTH, or FINE with a jump.
+# The interval between two gaps a < b is split if log(b/a) > SMOOTH, or > FINE if there is a jump.
 JUMP, SMOOTH, FINE = 1.3, 0.03, 0.004
-# In each stretch of nominal gaps with values up to CANDIDATE x the least of all values, a range is
-# the part around the least value of the stretch, with values up to LEVEL x this least value.
-# A range is good if its least value is at most ALIKE x the least value of all nominal gaps.
+# The value of a nominal gap is the largest displacement within its tolerance. V is the least value.
+# A stretch of gaps with values up to CANDIDATE x V has a least value v of its own. Its gaps around
+# v with values up to LEVEL x v form a range. A range is good if v is at most ALIKE x V.
 CANDIDATE, ALIKE, LEVEL = 1.15, 1.04, 1.05
-NOMINAL_GAPS = 4001
-# A chosen gap is rounded to DIGITS significant digits or, if needed, to more (below MOST_DIGITS).
+NOMINAL_GAPS = 4001  # number of nominal gaps whose values are computed
+# A chosen gap is rounded to DIGITS significant digits. If this leads out of its range of good gaps,
+# it is rounded to more digits, but fewer than MOST_DIGITS.
 DIGITS, MOST_DIGITS = 3, 9
 # Displacement (mm) that stands for an infinite displacement.
 HUGE = 1e9
 
 
 class Range(NamedTuple):
-    """A range of nominal gaps (mm): both ends, a gap near the middle, least value (mm)."""
+    """A range of nominal gaps (mm), one `gap` in it, and `size`, its least displacement (mm)."""
 
     low: float
     high: float
@@ -44,7 +47,7 @@ class Range(NamedTuple):
 
 
 class Curve:
-    """Largest displacements (mm) and their frequencies (Hz) at ascending gaps (mm)."""
+    """Largest displacement (mm) at each of several gaps (mm), and its frequency (Hz)."""
 
     def __init__(self, task: Task):
         self.task = task
@@ -53,7 +56,11 @@ class Curve:
         self.sets = [NOMINAL]  # sets of factors with the largest displacements near the best gaps
 
     def put(self, gaps, sizes, worst, *, close=True, replace=False) -> None:
-        """Add displacements. At a known gap keep the larger one, or with `replace` the new one."""
+        """Add displacements `sizes` (mm) at `gaps` (mm), with their `worst` frequencies (Hz).
+
+        If the curve has a displacement at a gap already, the larger one is kept, or with `replace`
+        the new one. `close` is False in the first search.
+        """
         for gap, size, frequency in zip(gaps, np.minimum(sizes, HUGE), worst, strict=True):
             k = int(np.searchsorted(self.gaps, gap * (1 - 1e-9)))
             if k < len(self.gaps) and self.gaps[k] <= gap * (1 + 1e-9):
@@ -69,7 +76,7 @@ class Curve:
     def within(self, lows, highs) -> np.ndarray:
         """Return the largest displacement on the curve in each interval lows[i] to highs[i].
 
-        At the ends of an interval the curve is interpolated. In a jump the larger value counts.
+        At the ends of an interval the curve is interpolated. At a jump the larger value counts.
         """
         logs, values = np.log(self.gaps), np.log(self.sizes)
         found = np.full(len(lows), -np.inf)
@@ -86,14 +93,14 @@ class Curve:
         return np.exp(np.maximum(found, np.where(inside, values, -np.inf).max(axis=1)))
 
     def nominal(self) -> tuple:
-        """Return two arrays: many nominal gaps, and their values (see the top of this module)."""
+        """Return many nominal gaps (mm), and the largest displacement in the tolerance of each."""
         share, width = self.task.gap_tolerance
         first, last = (self.gaps[0] + width) / (1 - share), (self.gaps[-1] - width) / (1 + share)
         gaps = np.geomspace(first, max(last, first), NOMINAL_GAPS)
         return gaps, self.within(*self.task.gap_ends(gaps))
 
     def ranges(self) -> list:
-        """Return the ranges of nominal gaps whose values are near the least value of all gaps."""
+        """Return ranges of nominal gaps with small displacements (see CANDIDATE)."""
         gaps, values = self.nominal()
         found = []
         for first, after in runs_of_true(values <= CANDIDATE * values.min()):
@@ -105,17 +112,17 @@ class Curve:
         return found
 
     def choose(self) -> Range:
-        """Return the widest of the good ranges (see ALIKE)."""
+        """Return the widest range of gaps with displacements near the smallest (see ALIKE)."""
         ranges = self.ranges()
         best = min(each.size for each in ranges)
         good = [each for each in ranges if each.size <= ALIKE * best]
         return max(good, key=lambda each: each.high / each.low)
 
     def lost(self, gap, size) -> np.ndarray:
-        """Return two rows: nearest lost gap below and above `gap`, displacements at these gaps.
+        """Return the nearest lost gaps below and above `gap`, and a row of displacements there.
 
         A gap is lost if it lies outside the tolerance of `gap` and has a displacement above `size`.
-        On a side without a lost gap the values are NaN.
+        If no gap on one side is lost, both values of this side are NaN.
         """
         found = np.full((2, 2), np.nan)
         for side, end, step in zip((0, 1), self.task.gap_ends(gap), (-1, 1), strict=True):
@@ -125,10 +132,10 @@ class Curve:
         return found
 
     def worst_inside(self, gap) -> np.ndarray:
-        """Return `self.sets`, with (worst gap)/`gap` as the factor of the gap.
+        """Return `self.sets`, sets of factors, with (worst gap)/`gap` as the factor of the gap.
 
-        The worst gap has the largest displacement within the tolerance of `gap`. The result is
-        empty if `gap` or an end of its tolerance is at least as bad.
+        The worst gap has the largest displacement within the tolerance of `gap`. The result has no
+        rows if the displacement at `gap`, or at an end of its tolerance, is at least as large.
         """
         low, high = self.task.gap_ends(gap)
         inside = np.flatnonzero((self.gaps > low) & (self.gaps < high))
@@ -140,7 +147,7 @@ class Curve:
         return rows
 
     def critical(self) -> np.ndarray:
-        """Return the worst frequencies (Hz) at all gaps with displacements near the least value."""
+        """Return the worst frequencies (Hz) of all gaps with small displacements."""
         return np.unique(self.worst[self.sizes <= CANDIDATE * self.nominal()[1].min()])
 
     def unclear(self) -> np.ndarray:
@@ -179,8 +186,9 @@ def middle_gap(first, last) -> float:
 def score(task, gaps, frequencies, starts, stream, progress=None, sets=(NOMINAL,)) -> tuple:
     """Return three sequences over gaps (mm): displacement (mm), frequency (Hz), set of factors.
 
-    The results of a gap are results of its worst cell. About (1 - share)/2 of the motions of a cell
-    exceed its displacement. A doubtful cell is run again with more starts (see DOUBTED).
+    A cell is a gap with one of `frequencies` and one of `sets`. The results of a gap are those of
+    its worst cell. About (1 - share)/2 of the motions of a cell exceed its displacement. A doubtful
+    cell is run again with more starts (see DOUBTED).
     """
     conditions = [(f, tuple(each)) for f in frequencies for each in sets]
     cells = [Cell(1e-3 * gap, *each) for gap in gaps for each in conditions]
@@ -201,20 +209,19 @@ def score(task, gaps, frequencies, starts, stream, progress=None, sets=(NOMINAL,
 
 
 def _ranks(task, starts):
-    """Return how many motions of a cell exceed its displacement, and how many the usual one."""
     allowed = starts * (1 - task.share)
-    return round(allowed / 2), int(2 * allowed)
+    return round(allowed / 2), int(2 * allowed)  # for the displacement, the usual displacement
 
 
 def _exceeded_by(task, motions, ranks):
-    """Return the displacements (mm) that ranks[i] motions exceed, for each i and each cell."""
+    """Return, for each rank and each cell, the displacement (mm) that `rank` motions exceed."""
     count = len(motions.peaks)
     sizes = np.array([np.sort(motions.numbers(k, rough=True)[0]) for k in range(count)])
     return task.millimetres(np.stack([sizes[:, -1 - rank] for rank in ranks]))
 
 
 def search(task, progress=None, rounds=ROUNDS) -> Curve:
-    """Return the curve over all gaps, finer at small displacements, and finest at jumps."""
+    """Return the curve of displacements over all gaps. Its points are denser near good gaps."""
     curve, few = Curve(task), task.few(FREQUENCIES)
     gaps = np.geomspace(*task.gap_span, min(GAPS, 6 * task.effort.candidates + 8))
     first = score(task, gaps, few, STARTS, ("search",), progress)
@@ -233,7 +240,7 @@ def search(task, progress=None, rounds=ROUNDS) -> Curve:
 
 
 def search_around(task, gap, sets, progress=None) -> Curve:
-    """Return the curve from half to twice a gap (mm). At each gap the worst of `sets` counts."""
+    """Return the curve of displacements from gap/2 to 2 gap (mm), for the worst of `sets`."""
     curve, few = Curve(task), task.few(FREQUENCIES)
     gaps = gap * np.geomspace(0.5, 2, 2 * task.effort.candidates + 1)
     curve.put(gaps, *score(task, gaps, few, STARTS, ("search",), progress, sets)[:2])

@@ -42,7 +42,7 @@ def shocks(task, decision, progress=None) -> xr.Dataset:
     drawn = draw_starts(task, [cell], task.effort.starts, ("shocks", 1))[0]
     starts = convergence_times(task, p, drawn, promised)
     critical = np.abs(changes)[np.isinf(returned)].min(initial=np.inf)
-    # `critical` is now the smallest tried impulse without a return. Smaller ones are tried too.
+    # After the impulse `critical` the motion did not return. Slightly smaller impulses are tried.
     first = changes[np.isinf(returned) & (np.abs(changes) <= critical)]
     steps = most / SHOCKS * np.arange(SHOCKS) / SHOCKS
     fine = (first[:, None] - np.sign(first)[:, None] * steps).ravel()
@@ -58,7 +58,7 @@ def shocks(task, decision, progress=None) -> xr.Dataset:
 
 
 def times_after(task, p, state, changes, promised):
-    """Return the convergence time after each change of the machine's velocity, from one state."""
+    """Return the convergence time after each of `changes` of the machine's velocity in `state`."""
     states = np.tile(state, (len(changes), 1))
     states[:, 1::2] += np.asarray(changes)[:, None]
     return convergence_times(task, p, states, promised)

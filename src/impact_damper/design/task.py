@@ -31,42 +31,43 @@ from impact_damper.model.text import with_unit
 from impact_damper.model.units import absolute_value, check_si
 from impact_damper.theory.free_oscillator import balance_amplitudes, free_folds, maximum_response
 
-# VARIED: names of values that may deviate; the last three are values of the machine. NOMINAL: the
-# factor 1 for each name in VARIED. TOLERANCES: default of the largest relative deviations.
+# Names of the values that may deviate from their nominal values. The last three are of the machine.
 VARIED = tuple("gap restitution contact_stiffness gravity friction stiffness damping force".split())
+# Factors by which nominal values are multiplied, here all 1.
 NOMINAL = (1.0,) * len(VARIED)
-TOLERANCES = {"gap": 0.2}
+TOLERANCES = {"gap": 0.2}  # largest relative deviations if none are given
 SIDES = ["lower", "upper"]
-# Errors with which an addition to the decision may fail without ending the design.
+# A design continues without an additional result if its computation raises one of these errors.
 NUMERICAL = (ArithmeticError, ValueError, IndexError, np.linalg.LinAlgError)
-# MOST_DEVIATION: largest relative deviation that is allowed. ABSOLUTE: name of a value whose
-# deviation may have a unit -> physical quantity. The deviation of `force` may have a unit too.
-MOST_DEVIATION = 0.9
+MOST_DEVIATION = 0.9  # largest relative deviation that is allowed
+# The deviations of these values may be given with a unit, of the physical quantity named here. So
+# may the deviation of `force`. Its quantity depends on the kind of excitation.
 ABSOLUTE = {
     "gap": "displacement",
     "contact_stiffness": "stiffness",
     "stiffness": "stiffness",
     "damping": "damping",
 }
-# The least gap considered is LEAST_GAP x min(least gap by rule (18), greatest gap considered).
+# A design considers gaps from LEAST_GAP x g on. g is the least gap by rule (18) over the band, or
+# the greatest gap that the design considers, if this is smaller.
 LEAST_GAP = 0.15
-# If the machine without damper escapes at all frequencies, the greatest gap considered is
-# ESCAPING x the greatest gap by rule (18).
+# If the machine without damper escapes at all frequencies, a design considers gaps up to ESCAPING x
+# the greatest gap by rule (18) over the band.
 ESCAPING = 4.0
-# An absorber is tuned over a range of frequencies: from ABSORBED[0] x the least to ABSORBED[1] x
-# the greatest frequency of band and resonances.
+# An absorber is tuned from ABSORBED[0] x f1 to ABSORBED[1] x f2. f1 is the lowest and f2 the
+# highest of four frequencies: both ends of the band, lowest and highest resonance of the machine.
 ABSORBED = 0.5, 2.0
-# Largest number of cycles in the first run of a motion. D is the machine's decay time in cycles.
-# Chaotic motion: PATIENT x D, but at least LEAST_PATIENCE. Any other motion: LONG x PATIENT x D,
-# but at least LEAST_LIMIT. `Effort.settling` may set smaller numbers.
+# The first run of a motion has at most N cycles. D is the decay time of the machine in cycles.
+# For a chaotic motion N is max(PATIENT x D, LEAST_PATIENCE), for any other motion it is
+# max(LONG x PATIENT x D, LEAST_LIMIT). A smaller number in `Effort.settling` takes the place of N.
 PATIENT, LEAST_PATIENCE = 5, 100
 LONG, LEAST_LIMIT = 6, 600
-# Least number of cycles in which a motion is measured if it has not settled.
+# A motion that has not settled is measured over at least this number of forcing cycles.
 WATCHED = 100
 
 
 def labelled(values, **coordinates) -> xr.Dataset:
-    """Return a dataset with units and descriptions. Displacements are in mm, other values in SI."""
+    """Return a dataset of named arrays, with units and descriptions. Displacements are in mm."""
     made = {name: shown_variable(name, value) for name, value in values.items()}
     known = {name: shown_variable(name, value) for name, value in coordinates.items()}
     return xr.Dataset(made, known, {"source": SOURCE})
@@ -188,17 +189,12 @@ class Task:
         object.__setattr__(self, name, value)
 
     def _check_length(self, name, most, why):
-        """Check that a length (m) is above 0 and at most `most`, and store it as a number."""
         limits = {"most": most, "why": why} if math.isfinite(most) else {}
         length = check_si(name, getattr(self, name), "displacement", above=0, **limits)
         self._set(name, length)
 
     def _stiffness(self):
-        """Return the stiffness of the contact, N/m.
-
-        By Hertz's law the stiffness grows with the speed of impact. The speed is assumed to be
-        2 f g: f is the middle frequency of the band, g the gap by rule (18) at this frequency.
-        """
+        """Return the contact stiffness, N/m. By Hertz's law it depends on the speed of impact."""
         limits = self.scales.range_to_si(bounds.STIFFNESS_RANGE, "stiffness")
         stiffness = self.contact
         if isinstance(stiffness, HertzContact):
@@ -215,7 +211,6 @@ class Task:
             )
 
     def _check_deviations(self):
-        """Raise ValueError if nominal values or values at ends of tolerances are out of range."""
         gap = self.gap or 1e-3 * self.gap_span[0]
         widths = self.deviations(1e3 * gap)
         least = self.restitution * (1 - self.tolerances.get("restitution", 0.0))
@@ -231,7 +226,7 @@ class Task:
                 self.packed(gap, frequency, factors)
 
     def _checked_tolerances(self):
-        """Return the tolerances as fractions, but a length for the gap as text like "0.0002 m"."""
+        """Return {name: fraction}. A length as tolerance of the gap stays a text: "0.0002 m"."""
         if not isinstance(self.tolerances, Mapping):
             raise TypeError(f"tolerances = {bounds.shown(self.tolerances)}: must be a dictionary")
         machine, found = self.machine, {}
@@ -261,7 +256,7 @@ class Task:
 
     @cached_property
     def gap_tolerance(self) -> tuple[float, float]:
-        """Tolerance of the gap: a fraction of the gap plus a length (mm). One of the two is 0."""
+        """Tolerance of the gap: (fraction of the gap, length in mm). One of the two is 0."""
         value = self.tolerances.get("gap", 0.0)
         return (value, 0.0) if isinstance(value, float) else (0.0, 1e3 * float(value.split()[0]))
 
@@ -272,7 +267,7 @@ class Task:
         return gaps * (1 - reach), gaps * (1 + reach)
 
     def deviations(self, gap) -> np.ndarray:
-        """Return the largest relative deviation of each value in VARIED, at a gap (mm)."""
+        """Return the largest relative deviation of each value in VARIED, for a nominal gap (mm)."""
         share, width = self.gap_tolerance
         others = [self.tolerances.get(name, 0.0) for name in VARIED[1:]]
         return np.array([min(share + width / gap, MOST_DEVIATION), *others])
@@ -281,7 +276,7 @@ class Task:
     def gap_span(self) -> tuple[float, float]:
         """Least and greatest gap that a design considers, mm.
 
-        In a greater gap the machine moves too little to touch a loose mass at rest in the middle.
+        In a greater gap the walls of the machine do not reach a loose mass at rest in the middle.
         """
         rules = np.array([1e3 * self.rule_gap(f) for f in self.grid])
         sizes = self.bare[np.isfinite(self.bare)]
@@ -299,7 +294,7 @@ class Task:
 
     @cached_property
     def hurried(self) -> Settling:
-        """Settings of first runs, which last only some decay times of the machine (see PATIENT)."""
+        """Settings of the first run of each motion. PATIENT says how long this run may last."""
         full = self.effort.settling
         # Decay time of the machine in forcing cycles at the middle frequency of the band.
         decay = sum(self.band) * self.machine.mass / self.machine.viscous_damping
@@ -309,14 +304,14 @@ class Task:
 
     @cached_property
     def resonances(self) -> list[float]:
-        """Resonances in the band, Hz: without the loose mass, and with it fixed to the machine."""
+        """Resonances in the band (Hz), of the machine alone and with the loose mass fixed to it."""
         ratio = math.sqrt(1 + self.mass / self.machine.mass)
         found = [each for end in self.resonance for each in (end / ratio, end)]
         return [each for each in found if self.band[0] < each < self.band[1]]
 
     @cached_property
     def grid(self) -> np.ndarray:
-        """Evenly spaced frequencies over the band, Hz. The nearest ones are moved to resonances."""
+        """Evenly spaced frequencies over the band, Hz. A resonance replaces the nearest one."""
         values = np.linspace(*self.band, self.effort.frequencies)
         for frequency in self.resonances:
             values[1 + np.argmin(np.abs(values[1:-1] - frequency))] = frequency
@@ -328,7 +323,7 @@ class Task:
         return self.bare_at(self.grid)
 
     def bare_at(self, frequencies) -> np.ndarray:
-        """Return the largest free displacements (mm) at frequencies (Hz), by harmonic balance."""
+        """Return the largest displacement without damper (mm) at each frequency (Hz)."""
         return self.millimetres(np.array([sizes[-1] for sizes in self._balances(frequencies)]))
 
     @property
@@ -337,7 +332,6 @@ class Task:
         return "yes" if any(len(sizes) > 1 for sizes in self._balances(self.grid)) else "no"
 
     def _balances(self, frequencies) -> list:
-        """Return ascending dimensionless amplitudes without damper for each frequency (Hz)."""
         oscillator = self.machine.oscillator()
         turning = self.scales.from_si(np.asarray(frequencies), "frequency")
         return [balance_amplitudes(oscillator, w) for w in turning]
@@ -354,14 +348,14 @@ class Task:
         return float(self.grid[np.argmax(self.bare)])
 
     def few(self, count, *others) -> np.ndarray:
-        """Return frequencies (Hz): `count` of `grid`, `worst_frequency`, `resonances`, `others`."""
+        """Return `count` frequencies (Hz) of the grid, plus the worst, the resonances, `others`."""
         places = np.linspace(0, len(self.grid) - 1, count).round().astype(int)
         resonances = np.intersect1d(self.grid, self.resonances)
         return np.union1d(self.grid[places], [self.worst_frequency, *resonances, *others])
 
     @property
     def scales(self):
-        """Scales between SI units and dimensionless values of the machine."""
+        """Scales of the machine, which convert SI values to dimensionless values and back."""
         return self.machine.scales
 
     def rule_gap(self, frequency) -> float:
@@ -371,7 +365,7 @@ class Task:
         return 2 * self.scales.to_si(force, "force") / (self.mass * (2 * math.pi * frequency) ** 2)
 
     def damper(self, gap, factors=NOMINAL) -> MachineDamper:
-        """Return the damper with a gap (m). `factors` has one factor for each name in VARIED."""
+        """Return the damper with a gap (m). `factors` multiply the values named in VARIED."""
         varied = dict(zip(VARIED, factors, strict=True))
         return MachineDamper(
             mass=self.mass,
@@ -384,7 +378,7 @@ class Task:
         )
 
     def system(self, gap, frequency, factors=NOMINAL) -> tuple:
-        """Return oscillator, damper, frequency: dimensionless, in scales of the nominal machine."""
+        """Return the dimensionless oscillator, damper and frequency for a gap (m) and in Hz."""
         varied = dict(zip(VARIED, factors, strict=True))
         oscillator = self.machine.oscillator()
         oscillator = replace(
@@ -399,7 +393,7 @@ class Task:
         return oscillator, damper, float(self.scales.from_si(frequency, "frequency"))
 
     def packed(self, gap, frequency, factors=NOMINAL) -> np.ndarray:
-        """Return the result of `system` packed in one array."""
+        """Return oscillator, damper and frequency (see `system`) as one array of numbers."""
         return pack(*self.system(gap, frequency, factors))
 
     def millimetres(self, displacement):
@@ -430,7 +424,7 @@ class Task:
 
 
 def resonance_of(machine) -> tuple[float, float]:
-    """Return the least and the greatest frequency (Hz) among natural frequency, peak and folds."""
+    """Return the lowest and highest resonance (Hz): natural frequency, peak or fold of a branch."""
     natural = machine.natural_frequency
     oscillator = machine.oscillator()
     found = [point.frequency for point in free_folds(oscillator)]

@@ -82,7 +82,6 @@ def swept_sine(machine, damper, band, rate) -> xr.Dataset:
 
 
 def _swept(machine, damper, first, frequencies):
-    """Return the largest displacement (m) in each cycle of a sweep, without the held cycles."""
     decay_rate = machine.viscous_damping / (2 * machine.mass)
     held = min(math.ceil(-math.log(SETTLED) * first / decay_rate), HELD)
     rows = forced(machine, damper, np.concatenate([np.full(held, first), frequencies]))
@@ -91,9 +90,10 @@ def _swept(machine, damper, first, frequencies):
 
 
 def sweep_periods(first, slope, count):
-    """Return two arrays over cycles of a continuous sweep: beginning (s), mean frequency (Hz).
+    """Return the beginning (s) and the mean frequency (Hz) of each cycle of a continuous sweep.
 
-    A cycle begins when the phase first t + slope t^2/2 is a whole number of cycles.
+    At the time t the frequency is first + slope t. A cycle begins when first t + slope t^2/2, the
+    phase in cycles, is a whole number.
     """
     phases = np.arange(count + 1)
     times = 2 * phases / (first + np.sqrt(first**2 + 2 * slope * phases))
@@ -112,7 +112,7 @@ def forced(machine, damper, frequencies):
 
 
 def ring_down(machine, damper, displacement) -> xr.Dataset:
-    """Return a dataset of unforced decays from a displacement (m), loose mass in the middle."""
+    """Return a dataset of unforced decays from a displacement (m), without and with the damper."""
     decays = [decay(machine, each, displacement) for each in (None, damper)]
     runs, status = zip(*decays, strict=True)
     padded = np.full((len(EQUIPMENT), max(map(len, runs)), 4), np.nan)
@@ -130,7 +130,7 @@ def decay(machine, damper, displacement):
     """Return the unforced decay from a displacement (m) as an array, and its end as a word.
 
     A row is a window of time. Columns: middle (s), inverse of the length (Hz), largest displacement
-    (m), number of contacts. The word is "at_rest", "escaped", or "limit" after MOST_WINDOWS.
+    (m), number of contacts. The word is "at_rest", "escaped", or "limit" after MOST_WINDOWS rows.
     """
     scales = machine.scales
     scaled = None if damper is None else damper.scaled(scales)
@@ -156,7 +156,7 @@ def decay(machine, damper, displacement):
 
 
 def lowest_energy(p, y) -> float:
-    """Return the energy at rest. Gravity puts the loose mass on a wall unless friction holds it."""
+    """Return the energy at rest. The loose mass then lies on a wall, or friction holds it."""
     if not p[INVERSE_MASS_RATIO]:
         return 0.0
     weight = p[GRAVITY] / p[INVERSE_MASS_RATIO]
@@ -168,7 +168,6 @@ def lowest_energy(p, y) -> float:
 
 
 def _window(p, left):
-    """Return the length of a window (see LONGEST): the undamped period at the energy `left`."""
     stiffness, cubic = cubic_spring(p)
     period = unforced_period(stiffness, cubic, unforced_amplitude(stiffness, cubic, left))
     if cubic >= 0:
