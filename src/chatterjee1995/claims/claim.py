@@ -100,7 +100,7 @@ class Claim:
         return {Bound.read(bound).name: words for bound, words in texts.items() if words}
 
     def verdict(self, values) -> str:
-        """Return the verdict. A NaN makes it "not decidable", unless a required bound fails."""
+        """Return the verdict. A NaN leads to "not decidable" if no required bound fails."""
         required, wished = (
             [Bound.read(text).holds(values) for text in bounds]
             for bounds in (self.required, self.full_agreement)

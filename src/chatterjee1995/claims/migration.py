@@ -17,7 +17,7 @@ def any_phase(datasets):
 
 
 def _release_shares(case, kind, free_motion="non_resonance"):
-    """Return the share of releases that lead to `free_motion`, for each damped motion of a kind."""
+    """Return the share of releases to `free_motion`, for each motion of a kind with the damper."""
     rows = case.damped_kind.values == flag("released_from", kind)
     shares = case.release_share.sel(free_motion=free_motion, bound="share").values[rows]
     return shares[np.isfinite(shares)]
@@ -44,8 +44,8 @@ def release_phase(datasets):
 def _scanned(datasets, case):
     """Return a dict: frequency W -> whether the phase of release decides which motion follows.
 
-    It decides if some releases from a quiet motion lead to the non-resonance motion, and others
-    to the subharmonic. Only release scans with the oscillator and damper of `case` are read.
+    The phase decides if some releases from a quiet motion lead to the non-resonance motion, and
+    others to the subharmonic. Only scans with the oscillator and damper of `case` are read.
     """
     wanted = oscillator_of(case), damper_of(case)
     found = {}

@@ -17,7 +17,7 @@ SHALLOW = 0.02  # largest ratio of penetration to clearance at which the expansi
 
 
 def misrounding(printed, computed):
-    """Return the error of a printed number in half units of its last digit (1 if just rounded)."""
+    """Return the error of a printed number in half units of its last digit."""
     decimals = len(f"{printed:g}".partition(".")[2])
     return abs(printed - computed) * 2 * 10**decimals
 

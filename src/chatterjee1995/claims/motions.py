@@ -72,7 +72,7 @@ def _violent(datasets, name):
 
 
 def phases(datasets):
-    """Return numbers that test claim 7: the masses are in antiphase below Wp, in phase above it."""
+    """Return numbers that test claim 7: the masses move in antiphase below the resonance peak."""
     of = pd.DataFrame([_phases(datasets, name) for name in BY_MASS])
     turns = {key: of[key][(of[key] - 1).abs().idxmax()] for key in ("turn_balance", "turn")}
     return of.max().to_dict() | turns | {"highest": of.highest.min()}

@@ -38,7 +38,7 @@ def excess(datasets):
 def _sweeps(datasets, *keys, **fixed):
     """Return clearance sweeps in groups: a dict, values of the parameters `keys` -> sweeps.
 
-    Only sweeps whose parameters have the values `fixed` count, and groups of at least two sweeps.
+    Sweeps with other values of the parameters `fixed` are left out, and so are single sweeps.
     """
     groups = {}
     for sweep in datasets.get("optimum", {}).values():
@@ -51,7 +51,7 @@ def _sweeps(datasets, *keys, **fixed):
 
 
 def _displaced(sweep):
-    """Return the larger max |Z1| of two: at d0 10 % below the optimum, and 10 % above."""
+    """Return max |Z1| if d0 is 10 % below the optimum or 10 % above, whichever is larger."""
     ends = float(sweep.optimum_clearance) * np.array([1 - AWAY, 1 + AWAY])
     size = np.interp(ends, sweep.clearance, sweep.quiet_displacement, left=np.nan, right=np.nan)
     return float(np.max(size))

@@ -5,7 +5,7 @@ import numpy as np
 from chatterjee1995.reading import datasets as reading
 from chatterjee1995.reading import orbits
 
-# Curves with light dampers, with a heavy damper, and with low damping of the machine.
+# Curves: two with light dampers, one with a heavy damper, one with low damping.
 LIGHT, HEAVY, LOW_DAMPING = reading.BY_MASS[:2], reading.BY_MASS[2], "figure_08"
 AS_LARGE = 0.95  # a subharmonic counts as unchanged if max |Z1| / (free max |Z1|) is at least this
 
@@ -13,9 +13,10 @@ AS_LARGE = 0.95  # a subharmonic counts as unchanged if max |Z1| / (free max |Z1
 def _remaining(datasets, name):
     """Return a dict about the stable orbits of a curve whose period is a multiple of 3.
 
-    `band` is the width of the suppression band. `in_band` is the width in W, within the band, with
-    such orbits. `between` is this width within the range of the free subharmonic. `ratio` is the
-    largest max |Z1| over max |Z1| of the free subharmonic, `ratio_in_band` the same in the band.
+    `band` is the width of the suppression band in W, `in_band` the width of the part of the band
+    with such orbits. `between` is the width of the part of the range of the free subharmonic with
+    such orbits. `ratio` is their largest max |Z1| over max |Z1| of the free subharmonic at the
+    same W, and `ratio_in_band` is this ratio in the band.
     """
     branches, free = orbits.of_curve(datasets, name)
     part = orbits.stable_subharmonics(branches)

@@ -60,7 +60,7 @@ VIOLENT = {
 
 @style.context()
 def draw_harmonic_convergence(*, harmonic_convergence):
-    """Draw three errors of harmonic balance over the highest harmonic, and which runs stall."""
+    """Draw errors of harmonic balance over the highest harmonic, and how Newton's method ends."""
     drawn = style.figure("double", 6.4)
     panels = drawn.subplots(2, 2, sharex=True)
     style.letter_panels(panels.flat)
@@ -91,7 +91,7 @@ def _draw_errors(axes, harmonics, measure):
 
 
 def _guide(data, at):
-    """Return the points of a line with the predicted decrease, at 3 times the computed errors."""
+    """Return a line of the predicted decrease. It lies 3 times above the computed errors."""
     highest, error = data["highest_harmonic"].values, at["series_error"].values
     used = (highest >= data["asymptotic_harmonic"].item()) & (error > ROUNDING)
     if not used.any():

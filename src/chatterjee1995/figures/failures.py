@@ -10,7 +10,7 @@ from impact_damper.plot.maps import edges_of
 
 COLUMNS = 3  # panels side by side
 LINEAR = "linear stability limit"
-# Entry of the legend -> look of its line. The errors have the same order as in the dataset.
+# Words in the legend -> look of the line. The first two lines are for the allowed errors.
 LINES = {
     "within 1 %": {"marker": "o", "markerfacecolor": style.WHITE, "linestyle": (0, (4, 2))},
     "within 10 %": {"marker": "s"},
@@ -87,7 +87,7 @@ def draw_stable_steps(*, stable_steps):
 
 
 def _draw_method(axes, data, index, title):
-    """Draw the largest accurate steps of a method, and its linear stability limit."""
+    """Draw the largest accurate time steps of an integrator, and its linear stability limit."""
     looks = dict(zip(data["accuracy"].values, list(LINES.values())[:2], strict=True))
     for accuracy, look in looks.items():
         step = data["stable_step"].sel(accuracy=accuracy) * data["contact_frequency"]

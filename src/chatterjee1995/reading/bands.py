@@ -10,7 +10,7 @@ from chatterjee1995.reading import orbits
 
 
 class Band(NamedTuple):
-    """A suppression band. Its lower end lies at a W from `lower` to `lower + resolution`."""
+    """A suppression band. Its lower end lies between `lower` and `lower + resolution`."""
 
     lower: float
     upper: float
@@ -45,7 +45,7 @@ def suppression_band(datasets, name):
 
     The band reaches from the highest W of a violent motion to the end of the free resonance.
     Without violent motions, `lower` and `resolution` are NaN. If only periodic motions are
-    violent, `resolution` is 0. Otherwise it is at most the step between two computed W.
+    violent, `resolution` is 0. Otherwise `resolution` is at most a step between computed W.
     """
     branches, free = orbits.of_curve(datasets, name)
     response = reading.get(datasets, "response", name)

@@ -110,7 +110,7 @@ def band_edges(design):
 
 
 def stable_impacting(design):
-    """Return the amplitudes a of equation (7), NaN for solutions not stable or without impacts."""
+    """Return the amplitude a of the solutions of (7) that are stable with impacts, else NaN."""
     stable = design.stability == flag("stability", "stable")
     return design.amplitude.where(stable & (design.kind == flag("kind", "impacting")))
 

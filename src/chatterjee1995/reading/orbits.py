@@ -71,7 +71,7 @@ def pieces(branches) -> pd.DataFrame:
 
 
 def ranges(part):
-    """Return the frequency ranges [lower, upper] that pieces cover. Ranges that overlap are one."""
+    """Return the frequency ranges [lower, upper] that pieces of branches cover. They are disjoint."""
     merged = []
     for lower, upper in part[["lower", "upper"]].sort_values("lower").to_numpy():
         if merged and lower <= merged[-1][1]:
@@ -82,12 +82,12 @@ def ranges(part):
 
 
 def covered(part, lower=-np.inf, upper=np.inf):
-    """Return the total width of the frequency ranges that pieces cover, from `lower` to `upper`."""
+    """Return the width of the frequency ranges within [lower, upper] that pieces cover."""
     return sum(np.ptp(np.clip(ends, lower, upper)) for ends in ranges(part))
 
 
 def coexisting(part, column):
-    """Return over how wide a frequency range pieces with different values of `column` coexist."""
+    """Return over how wide a frequency range orbits with different values of `column` coexist."""
     values = [ranges(same) for _, same in part.groupby(column)]
     if not values:
         return 0.0
@@ -101,7 +101,7 @@ def coexisting(part, column):
 
 
 def crossings(part, frequency) -> pd.DataFrame:
-    """Return a table of orbits at given frequencies, interpolated within each piece."""
+    """Return a table of orbits at given frequencies, interpolated within pieces of branches."""
     frequency = np.atleast_1d(np.asarray(frequency, float))
     inside = frequency[:, None] >= part.lower.to_numpy()
     inside &= frequency[:, None] <= part.upper.to_numpy()
@@ -122,7 +122,7 @@ def smallest(part, frequency) -> pd.DataFrame:
 
 
 def largest_sizes(part, frequency):
-    """Return the largest max |Z1| of pieces at each frequency, NaN where there is no piece."""
+    """Return the largest max |Z1| of orbits at each frequency, NaN where there is no orbit."""
     return crossings(part, frequency).groupby("frequency")["size"].max().reindex(frequency).values
 
 
@@ -145,14 +145,14 @@ def resonance(free, frequency):
 
 
 def high(branches, free):
-    """Return the pieces of branches that are stable and violent, with any period."""
+    """Return the pieces of branches whose orbits are stable and violent, with any period."""
     part = pieces(branches)
     part = part[part.stable]
     return part[part["size"] > HALF * resonance(free, part.frequency)]
 
 
 def quiet(branches, free):
-    """Return the pieces of branches that are stable, of period 1 and not violent."""
+    """Return the pieces of branches whose orbits are stable, of period 1 and not violent."""
     part = pieces(branches)
     part = part[part.stable & (part.period == 1)]
     return part[~(part["size"] > HALF * resonance(free, part.frequency))]
@@ -203,6 +203,6 @@ def subharmonic_range(free):
 
 
 def stable_subharmonics(branches):
-    """Return the pieces of branches that are stable and whose period is a multiple of 3."""
+    """Return the pieces of branches whose orbits are stable, of a period of 3, 6, 9, ... cycles."""
     part = pieces(branches)
     return part[part.stable & (part.period % 3 == 0)]

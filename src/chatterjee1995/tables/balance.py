@@ -1,4 +1,4 @@
-"""Tables of the errors of harmonic balance: for designs, with more harmonics, and over maps."""
+"""Tables of harmonic balance: designs, errors with more harmonics, and maps of its errors."""
 
 import numpy as np
 import pandas as pd
@@ -83,7 +83,7 @@ def harmonic_convergence(datasets) -> pd.DataFrame:
 
 
 def _convergence(data):
-    """Return the row of a motion. A cold start is Newton's method from one harmonic."""
+    """Return the row of a motion. A cold start begins Newton's method with a single harmonic."""
     highest, cold = data["highest_harmonic"].values, decode(data["cold_status"]).values
     error = data["series_error"].sel(error_measure="maximum").values
     decay = data.sel(error_measure="maximum")
@@ -115,7 +115,7 @@ def _convergence(data):
 
 
 def _needed(highest, error, accuracy):
-    """Return the number of harmonics from which on the error is at most `accuracy`, or NaN."""
+    """Return the number of harmonics needed for an error of at most `accuracy`, or NaN."""
     above = np.flatnonzero(~(error <= accuracy))
     first = above[-1] + 1 if len(above) else 0
     return highest[first] if first < len(highest) else np.nan
@@ -138,7 +138,7 @@ def balance_map(datasets) -> pd.DataFrame:
 
 
 def _answers(meaning):
-    """Return the answers of harmonic balance and of exact orbits in a verdict, "stable_absent"."""
+    """Return what harmonic balance says and what is true, for a verdict like "stable_absent"."""
     balance, _, truth = meaning.partition("_")
     if balance not in ("none", "stable", "unstable") or not truth:
         balance, truth = "", meaning

@@ -101,7 +101,7 @@ def bifurcations(datasets) -> pd.DataFrame:
 
 
 def _next_to_stable(data):
-    """Return a mask of the events at which the orbit, or an orbit next to it, is stable."""
+    """Return a mask of the events on branches that lie at a stable orbit or next to one."""
     found = np.zeros(data.sizes["event"], bool)
     for branch in range(data.sizes["branch"]):
         points = np.flatnonzero(data["orbit_branch"].values == branch)

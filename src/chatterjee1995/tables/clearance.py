@@ -73,7 +73,7 @@ def _grids(datasets):
 
 
 def _sweeps(datasets):
-    """Yield a table for each clearance sweep, with the columns that `_grids` yields."""
+    """Yield a table for each clearance sweep: the optimum clearance, and its value by each rule."""
     for data in datasets.get("optimum", {}).values():
         parameters = parameters_of(data)
         oscillator, damper = oscillator_of(data), damper_of(data, clearance=1.0)

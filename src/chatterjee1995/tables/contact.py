@@ -20,7 +20,8 @@ def _count(values, meaning):
 def contact_model(datasets) -> pd.DataFrame:
     """Return a table of given and realised restitution, for two rules of when a contact ends.
 
-    A contact ends at zero depth or at zero force. Further columns count the cells of a map.
+    A contact ends at zero depth or at zero force. Further columns count the cells of the map of
+    restitution and load, by the error of the restitution.
     """
     rows = []
     for name, data in datasets.get("contact_model", {}).items():
@@ -91,7 +92,7 @@ VERDICTS = {
 
 
 def _needed(own):
-    """Return for each allowed error the stiffness r1 above which walls may be taken as rigid."""
+    """Return for each allowed error of max |Z1| the r1 above which walls may be taken as rigid."""
     columns = {}
     for k, level in enumerate(own.threshold.values):
         value = float(own.needed_stiffness[k])
