@@ -17,7 +17,7 @@ def any_phase(datasets):
 
 
 def _release_shares(case, kind, free_motion="non_resonance"):
-    """Return the share of releases to `free_motion`, for each motion of a kind with the damper."""
+    """Return shares of releases that lead to `free_motion`, one for each damped motion of a kind."""
     rows = case.damped_kind.values == flag("released_from", kind)
     shares = case.release_share.sel(free_motion=free_motion, bound="share").values[rows]
     return shares[np.isfinite(shares)]

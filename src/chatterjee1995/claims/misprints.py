@@ -23,7 +23,7 @@ def misrounding(printed, computed):
 
 
 def penetration(datasets):
-    """Return numbers that test S1: the printed expansion of the contact force B at small depth."""
+    """Return numbers on misprint S1: the paper's expansion of the contact force B at small depth."""
     design = reading.get(datasets, "harmonic_balance", CAPTIONS[0])
     mass_ratio, clearance, stiffness = reading.parameters(
         design, "mass_ratio", "clearance", "contact_stiffness"
@@ -46,7 +46,7 @@ def penetration(datasets):
 
 
 def captions(datasets):
-    """Return numbers that test S2: the clearances printed with figure 3 follow from rule (19)."""
+    """Return numbers on misprint S2: clearances in captions of figure 3, and clearances by (19)."""
     numbers = {}
     for panel, *names in zip("ba", CAPTIONS[1:], RULES[1:], strict=True):
         designs = reading.select(datasets, "harmonic_balance", names)
@@ -57,13 +57,13 @@ def captions(datasets):
 
 
 def state_size(datasets):
-    """Return a number that tests S3: how many components the initial state of figure 4 has."""
+    """Return a number on omission S3: how many components an initial state has."""
     motion = reading.get(datasets, "motion", "figure_04")
     return {"components": sum(name in motion for name in STATE)}
 
 
 def design_point(datasets):
-    """Return numbers that test S4: at W = 2 the damper of figure 5 (a) fulfils rm W^2 d0 = 1."""
+    """Return numbers on misprint S4: whether d0 of figure 5 (a) fulfils rm W^2 d0 = 1 at W = 2."""
     design = reading.get(datasets, "harmonic_balance", CAPTIONS[0])
     mass_ratio, clearance = reading.parameters(design, "mass_ratio", "clearance")
     inertia = mass_ratio * PRINTED_PEAKS[0.215] ** 2
@@ -76,7 +76,7 @@ def design_point(datasets):
 
 
 def peaks(datasets):
-    """Return numbers that test S5: the peak frequencies that the paper prints."""
+    """Return numbers on misprint S5: the peak frequencies that the paper prints."""
     free = {oscillator_of(each): each for each in reading.free(datasets, "branches").values()}
     found = []
     for damping, printed in PRINTED_PEAKS.items():
@@ -96,7 +96,7 @@ def peaks(datasets):
 
 
 def unprinted(datasets):
-    """Return numbers that test S6: the values we chose for parameters that are not printed."""
+    """Return numbers on omission S6: the values we chose for parameters that are not printed."""
     design = reading.get(datasets, "harmonic_balance", "figure_08")
     mass_ratio, clearance = reading.parameters(design, "mass_ratio", "clearance")
     sweeps = [

@@ -64,7 +64,7 @@ def _reduction(datasets, name):
 
     `fall` is the reduction of max |Z1|, averaged over W and starts. A start that leads to no
     subharmonic counts as max |Z1| = 0. `relative` is `fall` over the mean max |Z1| without damper.
-    `unchanged` is the share of W at which a stable subharmonic is nearly as large as without.
+    `unchanged` is the share of W at which the damper hardly reduces a stable subharmonic.
     """
     branches, free = orbits.of_curve(datasets, name)
     ends = orbits.subharmonic_range(free)

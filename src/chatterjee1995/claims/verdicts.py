@@ -50,7 +50,7 @@ _TEXTS = yaml.safe_load(files(__package__).joinpath("claims.yaml").read_text())
 CLAIMS = tuple(
     Claim(str(number), EVIDENCE[str(number)], **entry) for number, entry in _TEXTS["claims"].items()
 )
-# Pattern of a symbol in plain text -> symbol that replaces it on the page.
+# Regular expression for a symbol in a text -> symbol that replaces it on the page.
 PRINTED = {"omega_l": "ωl", r"\bpi\b": "π", r"\^2\b": "²", r"\bsqrt\b": "√", ">=": "≥"}
 
 

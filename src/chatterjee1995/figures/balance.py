@@ -126,7 +126,7 @@ def _title(data, short=False):
 
 @style.context()
 def draw_balance_map(*, balance_map):
-    """Draw maps of where harmonic balance is right about quiet motions (a) and violent ones (b)."""
+    """Draw maps that show where harmonic balance is right about quiet and violent motions."""
     (data,) = balance_map
     drawn = style.figure("double", 5.6)
     quiet, violent = drawn.subplots(1, 2, sharex=True, sharey=True)

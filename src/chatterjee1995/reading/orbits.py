@@ -71,7 +71,7 @@ def pieces(branches) -> pd.DataFrame:
 
 
 def ranges(part):
-    """Return the frequency ranges [lower, upper] that pieces of branches cover. They are disjoint."""
+    """Return the disjoint frequency ranges [lower, upper] that pieces of branches cover."""
     merged = []
     for lower, upper in part[["lower", "upper"]].sort_values("lower").to_numpy():
         if merged and lower <= merged[-1][1]:
