@@ -17,7 +17,7 @@ def any_phase(datasets):
 
 
 def _release_shares(case, kind, free_motion="non_resonance"):
-    """Return shares of releases that lead to `free_motion`, one for each damped motion of a kind."""
+    """Return the shares of releases that lead to `free_motion`, from damped motions of one kind."""
     rows = case.damped_kind.values == flag("released_from", kind)
     shares = case.release_share.sel(free_motion=free_motion, bound="share").values[rows]
     return shares[np.isfinite(shares)]

@@ -23,7 +23,7 @@ def misrounding(printed, computed):
 
 
 def penetration(datasets):
-    """Return numbers on misprint S1: the paper's expansion of the contact force B at small depth."""
+    """Return numbers on misprint S1: the printed expansion of the contact force at small depth."""
     design = reading.get(datasets, "harmonic_balance", CAPTIONS[0])
     mass_ratio, clearance, stiffness = reading.parameters(
         design, "mass_ratio", "clearance", "contact_stiffness"
