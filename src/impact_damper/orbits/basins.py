@@ -2,7 +2,7 @@
 
 Without a damper the boundaries of basins are stable manifolds of unstable orbits: curves of states
 from which motions tend to the orbit. They are computed backwards in time, because errors then
-decrease. The curves are computed up to the |Z1| and |Z1'| in `reach`, and stored up to `window`.
+decrease. `reach` holds the largest |Z1| and |Z1'| of points computed, `window` of points stored.
 The names *convergence time*, *finite-time basin stability* and *minimal critical shock* come from
 Attractors.jl, version 2 (StabilityQuantifiersAccumulator).
 """
@@ -35,7 +35,7 @@ from impact_damper.motions.start_states import free_motions
 from impact_damper.motions.strobe_map import STROBE
 from impact_damper.orbits.shooting import find_orbit
 
-# Default half widths of the plane, divided by the largest |Z1| or the largest |Z1'| without damper.
+# Default half width of the plane, divided by the largest |Z1| or |Z1'| of motions without a damper.
 WIDTH = 1.5
 # The search for unstable orbits begins at each state of a grid of NEWTON x NEWTON states.
 NEWTON = 16
@@ -47,11 +47,12 @@ CELLS_RANGE = {"least": 2, "most": 10**4}
 
 
 class Labelled(NamedTuple):
-    """Labels of the n states of a plane. Each state is run m times: for m states of the loose mass.
+    """Labels of the n states of a plane. Each is run m times: with m states of the loose mass.
 
-    labels: Index of the attractor, or a negative flag without an attractor, shape (m, n).
+    labels: Index of the attractor, or a negative flag if there is none, shape (m, n).
     periods: Number of forcing cycles after which the label is known, shape (m, n).
-    records: The attractors. label: Function from states, shape (k, 4), to labels and periods.
+    records: A `MOTION` for each attractor.
+    label: Function that takes states, shape (k, 4), and returns their labels and periods.
     """
 
     labels: np.ndarray
@@ -190,7 +191,7 @@ def _sides(scales, sizes, displacement, velocity):
 
 
 def _free(p, plane, window, reach, phase, cells, settling, running):
-    """Return dataset variables and a `Labelled` for the states of a plane without a damper."""
+    """Label the states of a plane, without a damper. Return dataset variables and a `Labelled`."""
     attractors = free_attractors(p, reach / 2, settling)
     limits = settling.tolerance, settling.limit
     labels, periods = label_states(p, plane, phase, attractors, *limits, **running)
@@ -245,7 +246,7 @@ def boundary_data(p, attractors, window, reach, phase, cells, settling):
 
 
 def _damped(p, plane, damper, phase, cells, loose, settling, running):
-    """Return dataset variables and a `Labelled` for the states of a plane with a damper."""
+    """Label the states of a plane, with a damper. Return dataset variables and a `Labelled`."""
     if loose is None:
         places = [(place * damper.clearance, 0.0) for place in PLACES]
     else:
@@ -268,7 +269,6 @@ def _damped(p, plane, damper, phase, cells, loose, settling, running):
 
 
 def _attractor_data(p, found, phase):
-    """Return the dataset variables that describe each attractor."""
     records = found.records
     shares = [np.mean(found.labels == index) for index in range(len(records))]
     points = np.full((len(records), max(records["period"], default=1), 2), np.nan)
@@ -286,13 +286,14 @@ def _attractor_data(p, found, phase):
 
 # The computed part of a manifold begins at this distance from its saddle (an unstable orbit).
 NEAR = 1e-5
-# Limits on each side of a saddle: MOST_PERIODS forcing cycles, MOST_POINTS points in `window`, and
-# MOST_IN_ALL points within `reach`. In each cycle, points are inserted at most MOST_HALVINGS times.
+# A manifold is computed on each side of its saddle, backwards over at most MOST_PERIODS forcing
+# cycles, until MOST_POINTS points lie in `window` or MOST_IN_ALL in `reach`. In each cycle new
+# points are inserted, at most MOST_HALVINGS times, between points that are too far apart.
 MOST_PERIODS, MOST_POINTS, MOST_IN_ALL, MOST_HALVINGS = 60, 40_000, 100_000, 12
 FIRST_POINTS = 33
 # Largest distance between neighbouring points of a manifold outside `window`, divided by `reach`.
 OUTSIDE = 0.01
-# Orbits are equal if their states differ by less than SAME.
+# Two orbits are the same if their states differ by less than SAME.
 SAME = 1e-6
 # Number of states that one call of compiled code integrates. Ctrl-C waits for the end of a call.
 CHUNK = 4096
@@ -336,7 +337,7 @@ def run_backwards(p, states, phase, tolerance, reach):
 
 
 def stable_manifold(orbit, tolerance, window, spacing, reach):
-    """Return a saddle's stable manifold as a list of pieces, and whether it is complete."""
+    """Return the stable manifold of a saddle as a list of curves, and whether it is complete."""
     values, vectors = np.linalg.eig(orbit.monodromy[:2, :2])
     k = int(np.argmin(np.abs(values)))
     direction = vectors[:, k].real / np.linalg.norm(vectors[:, k].real)
@@ -348,7 +349,7 @@ def stable_manifold(orbit, tolerance, window, spacing, reach):
 
 
 def _grow(orbit, direction, growth, tolerance, window, spacing, reach):
-    """Return the results of `stable_manifold` for one side of the saddle, along `direction`."""
+    """Return curves of the manifold on one side of the saddle, and whether they are complete."""
 
     def earlier(states):
         return run_backwards(orbit.p, states, orbit.phase, tolerance, reach)
@@ -412,7 +413,7 @@ def robustness(p, found, phase, widest, shock, within) -> dict:
 
 
 def _after(found, index, states, shocks):
-    """Return for each shock whether any motion leaves the attractor, and the most cycles run."""
+    """Return for each shock whether a motion leaves the attractor, and the most cycles needed."""
     pushed = np.repeat(states, len(shocks), axis=0)
     pushed[:, 1::2] += np.tile(shocks, len(states))[:, None]
     labels, periods = (each.reshape(len(states), -1) for each in found.label(pushed))
@@ -420,7 +421,7 @@ def _after(found, index, states, shocks):
 
 
 def _critical(found, index, states, most):
-    """Return |shock| of the first shock from 0 to `most` (< 0 or > 0) without return, or inf."""
+    """Return the size of the first shock from 0 to `most` after which a motion leaves, or inf."""
     low, high = 0.0, most
     for parts in SHOCKS:
         shocks = np.linspace(low, high, parts + 1)

@@ -17,7 +17,7 @@ PLACE = 1e-12
 COMPLEX = 1e-6
 # An unstable orbit counts as nearly stable if all multipliers have moduli below 1 + NEAR_CIRCLE.
 NEAR_CIRCLE = 1e-3
-# Two contacts with one wall are merging if the flight between them is below MERGED forcing cycles.
+# Two contacts with one wall merge if the flight between them is shorter than MERGED forcing cycles.
 MERGED = 1e-3
 # Largest number of changes of contact that are located on one step.
 MOST_CHANGES = 8
@@ -26,10 +26,11 @@ PAIRS = {count: np.triu_indices(count, 1) for count in (2, 4)}
 
 
 class Event(NamedTuple):
-    """A bifurcation or a change of contacts, with the `Orbit.sequence` before and after it.
+    """A bifurcation or a change of contacts. The point lies at the event or beside it.
 
-    The kind is a key of TESTS or one of two kinds of grazing: "grazing" (a contact appears or
-    vanishes in flight), "merging" (two contacts with one wall become one, or one parts in two).
+    kind: A key of TESTS, or "grazing" (a contact appears or vanishes in flight), or "merging" (two
+    contacts with one wall become one, or the reverse).
+    before, after: Order of contacts (`Orbit.sequence`) before and after the event.
     """
 
     kind: str
@@ -39,24 +40,24 @@ class Event(NamedTuple):
 
 
 def _reversal(point, symmetric):
-    """Return a number that is zero if one of the orbit's `cycle_multipliers` is -1.
+    """Return a number that is zero where one of `Orbit.cycle_multipliers` is -1.
 
-    There a symmetric orbit (`sign` -1) loses its symmetry, and any other orbit doubles its period.
-    If `symmetric`, return 1 for an orbit that is not symmetric, otherwise 1 for a symmetric orbit.
+    There a symmetric orbit loses its symmetry, and any other orbit doubles its period. `symmetric`
+    says which of the two kinds of orbits is tested. For an orbit of the other kind return 1.
     """
     orbit = point.orbit
     return _product(orbit.cycle_multipliers + 1) if (orbit.sign < 0) == symmetric else 1.0
 
 
 def _pairs(point):
-    """Return a number that is zero if the product of two multipliers is 1."""
+    """Return a number that is zero if the product of any two multipliers of the orbit is 1."""
     values = point.orbit.multipliers[: point.orbit.active]
     first, second = PAIRS[len(values)]
     return _product(values[first] * values[second] - 1)
 
 
 def _product(values):
-    """Return the real part of a product. A modulus above 1 counts as 1: only 0 and sign matter."""
+    """Return the real part of the product of `values`, after moduli above 1 are reduced to 1."""
     return float((values / np.maximum(1, np.abs(values))).prod().real)
 
 
@@ -73,8 +74,8 @@ TESTS = {
 def bifurcations_between(point_at, start, end, first, last):
     """Return (place, event) for each bifurcation between two points, and how many were missed.
 
-    A place is a distance along the branch or, near a grazing, the height of an extremum of Z2. The
-    points lie at the places `first` and `last`, and `point_at` returns the point at a place.
+    A place is a distance along the branch or, near a grazing, |Z2| - d0 in an extremum of Z2. The
+    points `start` and `end` lie at the places `first` and `last`. `point_at` finds other points.
     """
     located, lost = [], 0
     for kind, (test, precision) in TESTS.items():
@@ -138,7 +139,7 @@ def _is_complex_pair(multipliers):
 
 
 def _changes_of_contact(point_at, start, end, length):
-    """Return (place, event) for each change of `Orbit.sequence` on a step, found by bisection."""
+    """Find changes of the order of contacts by bisection. Return a list of (place, event)."""
     located, inner, before = [], 0.0, start.orbit.sequence
     while before != end.orbit.sequence and len(located) < MOST_CHANGES:
         outer, after = length, end.orbit
@@ -161,7 +162,7 @@ def _changes_of_contact(point_at, start, end, length):
 
 
 def _contact_event(orbit):
-    """Return the kind of the event, from the contact that begins at the smallest |Z2'|."""
+    """Return "merging" or "grazing". The event concerns the contact that begins most slowly."""
     contacts = orbit.contacts
     k = int(np.argmin(np.abs(contacts[:, 3])))
     period = 2 * np.pi / orbit.p[FREQUENCY]

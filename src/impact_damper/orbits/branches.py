@@ -11,23 +11,23 @@ from impact_damper.orbits.bifurcations import Event, bifurcations_between, event
 from impact_damper.orbits.grazing import through_grazing
 from impact_damper.orbits.segments import NUDGE
 
-# Largest number of orbits computed in each of the two directions.
+# Largest number of orbits on each side of the first orbit of a branch.
 MOST_POINTS = 10_000
-# Orbits are equal if their states at W T = pi/2 differ by less than SAME.
+# Two orbits are the same if their states at W T = pi/2 differ by less than SAME.
 SAME = 1e-5
-# `Branch.holds` searches a step only if max |Z1| of the orbit sought differs from max |Z1| at the
-# step's beginning by at most NEARBY plus the change of max |Z1| along the step.
+# `Branch.holds` looks for an orbit only on steps of a branch with a similar max |Z1|. The values of
+# the orbit and of the step's beginning may differ by NEARBY plus the change along the step.
 NEARBY = 0.02
-# Largest distance from the parameter's range at which `family` is extrapolated.
+# `family` is extrapolated to values of the parameter that are at most this far outside its range.
 EXTENDED = 1e-3
 # A branch ends with `contact_lost` if all contacts of its last orbit begin at speeds below WEAK.
 WEAK = 0.02
-# At a fold, a branch may meet a branch of symmetric orbits or of half the period. The two meet if
-# `Orbit.deviation` at the fold is below VANISHED times the deviation at the point before.
+# A branch meets a branch of symmetric orbits, or of half the period, at a fold at which
+# `Orbit.deviation` vanishes: it is below VANISHED times its value at the point before the fold.
 VANISHED = 0.5
 # A grazing is searched for if the sequence of contacts changes on a step, or if a step shorter than
-# CLOSE_STEP fails. The search goes as far as REACH times the length of the step. If it finds none,
-# a step longer than CLOSE_STEP on which the sequence changes is halved.
+# CLOSE_STEP fails. The search goes as far as REACH times the length of the step. If no grazing is
+# found, a step longer than CLOSE_STEP on which the sequence changes is halved.
 CLOSE_STEP, REACH = 2e-3, 8.0
 # A step longer than CLEAR_STEP is halved if it may contain two folds, or if an event on the step
 # was not located.
@@ -38,11 +38,13 @@ CLEAR_STEP = 1e-4
 class Branch:
     """A branch of orbits. `family(value)` is the array `p` of all parameters at a point.
 
-    `events` holds pairs: the index of a point, and the event there. `ends` says why the branch ends
-    at its first and at its last point. range_ends: end of the parameter's range. closed: a closed
-    curve. symmetry_breaking or period_doubling: a branch of symmetric orbits or of half the period
-    is met. contact_lost: see WEAK. lost: Newton's method fails. point_limit: see MOST_POINTS.
-    unstable: too many unstable orbits in a row. The field `lost` counts events not located.
+    `events` holds pairs: the index of a point, and the event there. `lost` is the number of events
+    that were not located. `ends` says why the branch ends at its first and at its last point:
+
+    range_ends: The parameter is at the end of its range. closed: The branch is a closed curve.
+    symmetry_breaking: It meets a branch of symmetric orbits. period_doubling: It meets a branch of
+    half the period. contact_lost: All contacts are weak (see WEAK). lost: Newton's method fails.
+    point_limit: There are MOST_POINTS points. unstable: Too many unstable orbits in a row.
     """
 
     family: Callable[[float], np.ndarray]
@@ -53,7 +55,7 @@ class Branch:
 
     @cached_property
     def values(self):
-        """Parameter at the points, shape (n,)."""
+        """Values of the parameter at the points, shape (n,)."""
         return np.array([point.value for point in self.points])
 
     @cached_property
@@ -62,7 +64,7 @@ class Branch:
         return np.array([point.orbit.record["maximum_displacement"] for point in self.points])
 
     def holds(self, orbit, value) -> bool:
-        """Return whether the branch contains a given orbit at a given value of the parameter."""
+        """Return whether the branch contains an orbit, whose parameter is `value`."""
         if orbit.periods != self.points[0].orbit.periods:
             return False
         away = self.values - value
@@ -79,14 +81,17 @@ class Branch:
 
 
 def between(point, ahead, value):
-    """Return the point at which the parameter is `value`, between two points, or None."""
+    """Return the point between `point` and `ahead` at which the parameter is `value`, or None."""
     if np.array_equal(point.problem.phases, ahead.problem.phases):
         return continuation.point_at_value(point, ahead, value)
     return point.problem.at_value(point, value)
 
 
 def follow_branch(family, orbit, value, span, beyond=np.inf) -> Branch:
-    """Follow a branch both ways, each until more than `beyond` orbits in a row are unstable."""
+    """Follow the branch of an orbit to smaller and to larger parameters, within `span`.
+
+    Each direction ends at the latest when more than `beyond` orbits in a row are unstable.
+    """
     family = _extended(family, span)
     problem = continuation.Problem.of(family, orbit)
     x, walks = problem.unknowns(orbit, value), []
@@ -127,7 +132,7 @@ def _extended(family, span):
 
 
 def _walk(problem, first, span, beyond) -> Branch:
-    """Follow a branch in the direction of a point's tangent; return a `Branch` from this point."""
+    """Return the part of a branch from the point `first` on, in the direction of its tangent."""
     points, events, lost, end, idle = [first], [], 0, "", 0
     if (first.value - span[0]) * (first.value - span[1]) >= 0:
         outward = np.sign(first.value - sum(span) / 2) * first.tangent[-1] > 0
@@ -173,10 +178,10 @@ def _walk(problem, first, span, beyond) -> Branch:
 
 
 def _next_pieces(point, span, length, search):
-    """Return the pieces of the next step (see `_through_grazing`), [] if the step must be shorter.
+    """Return the pieces of the next step, or an empty list if the step must be shorter.
 
-    Also return the factor by which to change the length of the step, and whether a grazing was
-    searched for. If `search` is False, no grazing is searched for.
+    For pieces see `_through_grazing`. Also return the factor by which to change the length of the
+    step, and whether a grazing was searched for. If `search` is False, none is searched for.
     """
     ahead, factor = continuation.next_point(point, span, length)
     changes = ahead is not None and ahead.orbit.sequence != point.orbit.sequence
@@ -247,8 +252,8 @@ def _through_grazing(point, reach):
 def _meeting(events, orbit):
     """Return the index of the event at which a branch meets a more symmetric branch, or None.
 
-    The event is a fold at which `Orbit.deviation` vanishes. If folds were located, but not this
-    one, return None. If no fold was located, the event was missed: return len(events).
+    The event is a fold at which `Orbit.deviation` vanishes. If `events` has folds, but no such
+    fold, return None. If `events` has no fold, the event was not located: return len(events).
     """
     folds = [k for k, event in enumerate(events) if event.kind == "fold"]
     least = VANISHED * np.max(np.abs(orbit.deviation))
@@ -259,7 +264,7 @@ def _meeting(events, orbit):
 
 
 def _passes(point, ahead, first):
-    """Return the point between two points at which the orbit of `first` is met again, or None."""
+    """Return the point between two points at which the branch returns to `first`, or None."""
     forward = (ahead.value - point.value) * first.tangent[-1] > 0
     if not forward or (point.value - first.value) * (ahead.value - first.value) > 0:
         return None

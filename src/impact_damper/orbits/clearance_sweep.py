@@ -145,7 +145,6 @@ def clearance_sweep(
 
 
 def _peak_rule(oscillator, mass_ratio):
-    """Return the clearance by rule (19), or NaN if the response without damper has no peak."""
     try:
         return rule_clearance(oscillator, mass_ratio)
     except ValueError:
@@ -155,8 +154,8 @@ def _peak_rule(oscillator, mass_ratio):
 def _quiet_motions(data, clearances, rule):
     """Return the state and max |Z1| of the quiet orbit at each clearance, and an index or None.
 
-    max |Z1| is NaN without a quiet orbit. The index belongs to the clearance nearest to `rule` that
-    has a quiet orbit. Quiet orbits on another branch than the orbit at this index are left out.
+    The index is that of the clearance closest to `rule` at which a quiet orbit was found. Quiet
+    orbits on other branches than this one are left out. Where none is left, max |Z1| is NaN.
     """
     names = "outcome period contacts asymmetry maximum_displacement branch state"
     table = {name: data[name][1] for name in names.split()}
@@ -172,7 +171,7 @@ def _quiet_motions(data, clearances, rule):
 
 
 def _stable_part(p, state, span):
-    """Return clearances and max |Z1| of stable orbits, and max |Z1| as a function of clearance."""
+    """Return clearances and max |Z1| of stable orbits on a branch, and max |Z1| as a function."""
 
     def family(clearance):
         changed = p.copy()
@@ -194,15 +193,15 @@ def _stable_part(p, state, span):
     return values, branch.displacements[first:last], size_at
 
 
-# The range around the optimum ends where max |Z1| is NEAR_MINIMUM times its minimum.
+# The range of clearances near the optimum ends where max |Z1| is NEAR_MINIMUM times its minimum.
 NEAR_MINIMUM = 1.1
-# A smooth minimum of max |Z1| is moved, by at most WIDE times the clearance, to the place at which
-# a central difference is zero. The step of this difference is DIFFERENCE times the clearance.
+# The place of a smooth minimum of max |Z1| is improved: it is where a central difference of
+# max |Z1| with the step DIFFERENCE x clearance is zero. It may move by up to WIDE x clearance.
 DIFFERENCE, WIDE = 3e-5, 1e-4
 
 
 def minimum_table(values, sizes, size_at, span):
-    """Return the variables that describe the minimum of max |Z1| on a branch's stable part."""
+    """Return the dataset variables that describe the smallest max |Z1| of stable quiet orbits."""
     if not len(values):
         return {
             "optimum_clearance": np.nan,
@@ -247,16 +246,15 @@ def _stationary(size_at, best):
 def _kind(size_at, best, least, longest):
     """Return "smooth" or "kink", the kind of the minimum of max |Z1| at the clearance `best`.
 
-    At half the distance from the minimum, the rise is a quarter (smooth) or half (kink) as large.
+    At half the distance the rise is a quarter as large for a smooth minimum, half for a kink.
     """
     steps = longest, longest / 2
     rises = [size_at(best + step) + size_at(best - step) - 2 * least for step in steps]
-    # 0.36 lies between a quarter and a half.
     return "kink" if rises[1] > 0.36 * rises[0] else "smooth"
 
 
 def _near(values, sizes, size_at, best, least):
-    """Return the clearance at which max |Z1| reaches NEAR_MINIMUM times `least`, or the last."""
+    """Return the clearance at which max |Z1| is NEAR_MINIMUM x `least`, or the last in `values`."""
     level = NEAR_MINIMUM * least
     inside = best
     for value, size in zip(values, sizes, strict=True):

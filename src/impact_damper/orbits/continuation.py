@@ -28,19 +28,19 @@ CLOSE, ROUNDING, SURE, SHRINKING = 1e-10, 1e-4, 1e-6, 0.7
 # The derivative by the parameter is expensive. Therefore it is updated only if the last correction
 # is below REFINED and all corrections since the last update add up to more than UNMOVED.
 REFINED, UNMOVED = 1e-4, 5e-6
-# If the solution of a linear system is more than SINGULAR^-0.5 times its right side, the system is
-# nearly singular. Singular values below SINGULAR times the largest one then count as zero.
+# A linear system is nearly singular if its solution is more than SINGULAR^-0.5 times as large as
+# its right side. Then singular values below SINGULAR times the largest one count as zero.
 SINGULAR = 1e-8
-# Lengths of the first and of the shortest step along a branch, as in `Problem.length`.
+# Lengths of the first and of the shortest step along a branch, measured by `Problem.length`.
 FIRST_STEP, SHORTEST_STEP = 0.01, 1e-9
-# A step is at most LONGEST times as long as the vector of unknowns. The factor is LONGEST_UNSTABLE
-# if orbits are neither symmetric nor stable. Vectors shorter than SMALLEST count as SMALLEST.
+# A step is at most LONGEST times as long as the vector of unknowns, or LONGEST_UNSTABLE times if
+# orbits are neither symmetric nor stable. The length of this vector counts as at least SMALLEST.
 LONGEST, LONGEST_UNSTABLE, SMALLEST = 0.02, 0.06, 0.05
 # The first guess in `Problem.at_value` is at most this far from the given point. A farther guess
 # near a fold could be a state so large that its integration takes minutes.
 FARTHEST_GUESS = 0.08
-# A point may be as far from its first guess as about ASIDE times the length of the step. A farther
-# point may lie on another branch. The first correction may be FAILING times this distance.
+# A point farther from its first guess than about ASIDE times the length of the step is rejected,
+# because it may lie on another branch. The first correction may be FAILING times this distance.
 ASIDE, FAILING = 0.2, 2.0
 
 
@@ -84,7 +84,7 @@ class Problem:
 
     @classmethod
     def of(cls, family, orbit, *, symmetric=None):
-        """Return the problem of an orbit. By default a symmetric orbit has a symmetric problem."""
+        """Return the `Problem` of an orbit. `symmetric` is by default whether the orbit is."""
         if symmetric is None:
             symmetric = bool(orbit.record["asymmetry"] < SYMMETRIC)
         cycle = orbit.periods * TURN * (0.5 if symmetric else 1.0)
@@ -100,12 +100,12 @@ class Problem:
 
     @property
     def size(self):
-        """Number n of unknowns of a segment: 4, or 2 without a damper."""
+        """Number n of unknown components of a state: 4, or 2 without a damper."""
         return 4 if self.damped else 2
 
     @property
     def sign(self):
-        """`Orbit.sign` of all orbits of the problem."""
+        """-1 if the segments cover half the period of symmetric orbits, otherwise 1."""
         return -1 if self.symmetric else 1
 
     @property
@@ -115,12 +115,12 @@ class Problem:
 
     @cached_property
     def metric(self):
-        """Weights of the unknowns' squared differences in the squared distance, (m n + 1,)."""
+        """Weights of the squared components in the squared length of a vector, (m n + 1,)."""
         m = len(self.phases) - 1
         return np.append(np.full(m * self.size, 1 / m), 1.0)
 
     def length(self, vector):
-        """Return the length of a `vector`, the difference of two vectors of unknowns."""
+        """Return the length of `vector`, which is the difference of two vectors of unknowns."""
         return float(np.sqrt(self.metric @ vector**2))
 
     def unknowns(self, orbit, value):
@@ -128,18 +128,18 @@ class Problem:
         return np.append([orbit.at(phase)[: self.size] for phase in self.phases[:-1]], value)
 
     def states(self, x):
-        """Return the states at the beginnings of the segments, shape (m, 4)."""
+        """Return the states at which the segments begin, shape (m, 4), from the unknowns x."""
         if self.damped:
             return x[:-1].reshape(-1, 4)
         return np.concatenate([x[:2], x[:2] + self.loose])[None]
 
     def shoot(self, x):
-        """Integrate the segments from the unknowns x; the `Orbit` need not be periodic."""
+        """Integrate the segments of the unknowns x to an `Orbit`, which need not be periodic."""
         states = self.states(x)
         return integrate(self.family(x[-1]), self.periods, self.phases, states, self.sign)
 
     def rate(self, value):
-        """Return the derivative of the array `p` by the parameter, shape (COUNT,)."""
+        """Return the derivative of the array `p` by the parameter, at the parameter `value`."""
         ahead, behind = self.family(value + NUDGE), self.family(value - NUDGE)
         # Without a damper the clearance is infinite. Its derivative is set to 0.
         change = np.subtract(ahead, behind, out=np.zeros(len(ahead)), where=ahead < np.inf)
@@ -157,7 +157,6 @@ class Problem:
         return slopes
 
     def _matrix(self, orbit, slopes):
-        """Return the result of `rows`; `slopes` is the result of `_slopes`."""
         n = self.size
         return np.column_stack([segments.cyclic(orbit.factors[:, :n, :n]), slopes.ravel()])
 
@@ -204,7 +203,7 @@ class Problem:
         return np.linalg.lstsq(matrix, right, SINGULAR)[0]
 
     def near(self, x, border, length):
-        """Return the point that `correct` finds from x, None if it is too far away (see ASIDE)."""
+        """Return the point that `correct` finds from x, or None if it is too far from x (ASIDE)."""
         aside = ASIDE * abs(length) + min(ROUNDING, abs(length))
         point = self.correct(x, border, FAILING * aside)
         return None if point is None or self.length(point.x - x) > aside else point
@@ -222,7 +221,7 @@ class Problem:
 
 
 def point_at_distance(origin, point, ahead, distance):
-    """Return the point between two points, at a distance along the tangent of `origin`; or None."""
+    """Return the point between two points, at a distance along the tangent of `origin`, or None."""
     row = origin.problem.metric * origin.tangent
     first, last = (row @ (end.x - origin.x) for end in (point, ahead))
     x = _cubic(point, ahead, (distance - first) / (last - first))
@@ -231,7 +230,7 @@ def point_at_distance(origin, point, ahead, distance):
 
 
 def point_at_value(point, ahead, value):
-    """Return the point at which the parameter is `value`, between two points; or None."""
+    """Return the point between `point` and `ahead` at which the parameter is `value`, or None."""
     problem, chord = point.problem, ahead.x - point.x
 
     def beyond(fraction):
@@ -251,9 +250,9 @@ def point_at_value(point, ahead, value):
 
 
 def _cubic(point, ahead, fraction):
-    """Return the unknowns on the cubic curve that touches the branch at two points.
+    """Return the unknowns at a place on the cubic curve that touches the branch at two points.
 
-    `fraction` says where: 0 is the first point, 1 the second point.
+    `fraction` is the place: 0 at `point`, 1 at `ahead`, and between 0 and 1 between the two.
     """
     row = point.problem.metric * point.tangent
     chord = ahead.x - point.x
@@ -268,13 +267,16 @@ def _cubic(point, ahead, fraction):
 # the tangents at the step's ends, radian. SKEW: length of the difference of two unit vectors, one
 # from end to end of the step, the other along the mean of the two tangents.
 TURNED, SKEW = 0.5, 0.03
-# A step should reach AIM x TURNED or AIM^2 x SKEW, whichever is first. It is at most GROWTH times
-# as long as the step before, and after a rejected step at least SHRINKAGE times as long.
+# A step should reach AIM x TURNED or AIM^2 x SKEW, whichever comes first. Its length is at most
+# GROWTH times, and after a rejected step at least SHRINKAGE times, the length of the step before.
 AIM, GROWTH, SHRINKAGE = 0.65, 1.5, 0.3
 
 
 def next_point(point, span, length):
-    """Return the next point, or None after a failure; and the factor for the next step's length."""
+    """Make a step along a branch. Return the new point, or None if the step must be shorter.
+
+    Also return the factor by which to multiply the length for the next step.
+    """
     problem = point.problem
     bent = length**2 / 2 * point.bend + length**3 / 6 * point.twist
     ahead = problem.near(point.x + length * point.tangent + bent, point.tangent, length)
@@ -295,7 +297,7 @@ def next_point(point, span, length):
 
 
 def with_bend(point, ahead):
-    """Return the point `ahead` with `bend` and `twist`, estimated from the step to this point."""
+    """Return `ahead` with `bend` and `twist`, estimated from the step from `point` to `ahead`."""
     length = ahead.problem.length(ahead.x - point.x)
     chord = (ahead.x - point.x) / length
     bend = (2 * point.tangent + 4 * ahead.tangent - 6 * chord) / length
@@ -315,9 +317,10 @@ def folds_twice(point, ahead):
     return first * (first - middle**2 / (4 * bend)) < 0
 
 
-# An orbit with several segments gets new ones if one begins closer than NEAR_SECTION (radian) to a
-# contact, if the norm of a matrix in `Orbit.factors` reaches ROUGHER times `Problem.rough`, or if
-# one segment is enough because `Orbit.amplification` is below MILD times AMPLIFYING.
+# An orbit with several segments is divided anew if one of these is true:
+# - A segment begins closer than NEAR_SECTION (radian) to a contact.
+# - The norm of a matrix in `Orbit.factors` reaches ROUGHER times `Problem.rough`.
+# - One segment is enough, because `Orbit.amplification` is below MILD times AMPLIFYING.
 NEAR_SECTION, ROUGHER, MILD = 0.02, 4.0, 0.5
 
 
@@ -334,7 +337,7 @@ def holds_still(point):
 
 
 def recut(point, between=()):
-    """Return the point with new segments, or the old point if Newton's method fails."""
+    """Return a point with its orbit in new segments, or `point` itself if Newton's method fails."""
     before, orbit = point.problem, point.orbit
     phases, rough = segments.cut(orbit, before.cycle, between), 1.0
     if not between and orbit.amplification <= AMPLIFYING:
@@ -353,5 +356,4 @@ def recut(point, between=()):
 
 
 def _norms(orbit):
-    """Return the Frobenius norm of each matrix in `Orbit.factors`, shape (m,)."""
     return np.sqrt(np.sum(orbit.factors**2, axis=(1, 2)))

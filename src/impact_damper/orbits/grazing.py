@@ -1,7 +1,7 @@
 """Follow a branch through a grazing, at which an extremum of Z2 reaches a wall.
 
-The branch turns sharply there. Therefore its points are computed at chosen values of |Z2| - d0 in
-this extremum, called the height of the extremum. `direction` is 1 if heights rise, -1 if they fall.
+The value |Z2| - d0 in this extremum is its height. Because the branch turns sharply, its points are
+computed at chosen heights. `direction` is 1 if heights rise along the branch, -1 if they fall.
 """
 
 from typing import NamedTuple
@@ -14,21 +14,26 @@ from impact_damper.orbits import segments
 from impact_damper.orbits.continuation import NEWTON, Point, recut
 from impact_damper.orbits.segments import list_turns, slopes_of_ends
 
-# On the side with more contacts, points are computed at |height| = LEAST x RATIO^k, up to MOST.
+# On that side of a grazing where orbits have more contacts, points are computed at |height| =
+# LEAST, LEAST x RATIO, LEAST x RATIO^2 and so on, up to MOST.
 RATIO, LEAST, MOST = 10.0, 1e-13, 2e-5
-# A failed step from height to height is divided in two, at most HALVINGS times in each grazing, and
-# at most HALVINGS_BETWEEN times in a row if the step leads to a point between known points.
+# If a step from one height to the next fails, a height between them is tried first: at most
+# HALVINGS times in each grazing, and at most HALVINGS_BETWEEN times in a row in `Passage.between`.
 HALVINGS, HALVINGS_BETWEEN = 8, 3
-# A step has led to another branch if `Orbit.deviation` has fallen to FALLEN times its old value.
+# A step led to a more symmetric branch if max |`Orbit.deviation`| fell to FALLEN x its old value.
 FALLEN = 0.01
-# On the side with fewer contacts, points are computed at these |height|.
+# On the side where orbits have fewer contacts, points are computed at these |height|.
 BESIDE = 1e-9, 2e-5
-# Corrections must be below LARGEST, the final error of a height below CLOSE x |height| + ROUNDING.
+# Newton's method fails if it must change an unknown by LARGEST or more. It has converged only if
+# the error of the height is below CLOSE x |height| + ROUNDING.
 LARGEST, CLOSE, ROUNDING = 0.5, 1e-4, 1e-14
 
 
 def at_height(problem, x, turn, height, direction):
-    """Return the point near x at which an extremum has `height`, and the extremum; or None."""
+    """Find the point near the unknowns x at which the extremum `turn` of Z2 has `height`.
+
+    Return the point and the extremum there, or None if Newton's method fails.
+    """
     x = x.copy()
     for _ in range(NEWTON):
         orbit = problem.shoot(x)
@@ -55,7 +60,7 @@ def at_height(problem, x, turn, height, direction):
 class Passage(NamedTuple):
     """Points of a branch through a grazing, and at each point the extremum that grazes.
 
-    `grazing` is the index of the point closest to the grazing, on the side with more contacts.
+    `grazing` is the index of the point closest to the grazing, where orbits have more contacts.
     `kind` is "grazing" or "merging", as in `bifurcations.Event`.
     """
 
@@ -86,12 +91,12 @@ class Passage(NamedTuple):
 
 
 def guess(point, turn, height):
-    """Return the unknowns on a point's tangent at which an extremum has about the given height."""
+    """Return the unknowns, on the tangent at a point, where an extremum has about `height`."""
     return point.x + (height - turn.height) / (turn.gradient @ point.tangent) * point.tangent
 
 
 def through_grazing(point, reach):
-    """Return the `Passage` of a branch through its next grazing within `reach`, or None."""
+    """Return points of a branch through its next grazing, or None if none is within `reach`."""
     turn = next_grazing(point, reach)
     if turn is None:
         return None
@@ -116,7 +121,7 @@ def through_grazing(point, reach):
 
 
 def _along(point, turn, targets, direction, contacts):
-    """Compute points at the heights `targets` until this fails; return points, heights, turns."""
+    """Compute points at the heights `targets` until this fails. Return them and their extrema."""
     points, heights, turns = [point], [turn.height], [turn]
     pending, halvings = targets[::-1], 0
     while pending and halvings <= HALVINGS:
@@ -146,7 +151,7 @@ def _before(height, target):
 
 
 def _targets(height, sharp, direction):
-    """Return heights for points. `sharp` is the sign of heights on the side with more contacts."""
+    """Return heights at which to compute points. Contacts are more where `sharp` x height > 0."""
     fine = LEAST * RATIO ** np.arange(1 + int(np.log(MOST / LEAST) / np.log(RATIO)))
     if direction == sharp:
         return list(sharp * fine)
@@ -158,7 +163,7 @@ def _targets(height, sharp, direction):
 SHIFT = 1e-10
 # At first the list of extrema has room for TURNS extrema in each segment.
 TURNS = 256
-# Extrema of neighbouring orbits are the same if their phases (radian) differ by less than MOVED.
+# Extrema of two neighbouring orbits correspond if their phases (radian) differ by less than MOVED.
 MOVED = 0.1
 
 
@@ -177,7 +182,7 @@ class Turn(NamedTuple):
 
 
 def turns_of(orbit):
-    """Return a list of all extrema of Z2 on an orbit, without gradients."""
+    """Return a list of all extrema of Z2 on an orbit. Their gradients are not computed."""
     count = room = TURNS * len(orbit.states)
     while count >= room:
         room = count + 1
@@ -187,9 +192,10 @@ def turns_of(orbit):
 
 
 def with_gradient(problem, x, orbit, turn):
-    """Return an extremum with its gradient. The array `x` holds the unknowns of the orbit.
+    """Return an extremum of Z2 with its gradient. `x` holds the unknowns of the orbit.
 
-    The phase of the extremum is kept fixed. Its small change has no effect, because Z2' = 0 there.
+    The gradient is the derivative of |Z2| - d0 at a fixed phase. A small change of the extremum's
+    phase has no effect, because Z2' = 0 there.
     """
     k, rate = turn.segment, problem.rate(x[-1])
     phases, begin = np.array([orbit.phases[k], turn.phase]), orbit.states[k]
@@ -203,7 +209,7 @@ def with_gradient(problem, x, orbit, turn):
 
 
 def nearest(turns, turn):
-    """Return the extremum in `turns` whose phase is closest to `turn`, or None if none is close."""
+    """Return the extremum in `turns` that is closest to `turn` in phase, None if none is near."""
     near = [each for each in turns if each.segment == turn.segment]
     near = [each for each in near if abs(each.phase - turn.phase) < MOVED]
     near = [each for each in near if each.outer == turn.outer] or near
@@ -211,7 +217,7 @@ def nearest(turns, turn):
 
 
 def next_grazing(point, reach):
-    """Return the extremum that grazes first if a point moves along its tangent, or None."""
+    """Return the extremum of Z2 that grazes first along the tangent within `reach`, or None."""
     problem, candidates = point.problem, []
     ahead = turns_of(problem.shoot(point.x + SHIFT * point.tangent))
     for turn in turns_of(point.orbit):

@@ -23,11 +23,11 @@ from impact_damper.orbits.segments import flow_all
 # Increase of the phase W T in one forcing cycle, radian.
 TURN = 2 * math.pi
 # An orbit has converged if its residual, divided by max(1, largest component of a state), is below
-# RESIDUAL. With stiff contacts it may be STIFF_RESIDUAL times the natural frequency of a contact.
+# RESIDUAL, or with contacts below STIFF_RESIDUAL times the natural frequency of a contact.
 RESIDUAL, STIFF_RESIDUAL = 1e-12, 7e-15
-# An orbit should begin at least this far from a contact, radian.
+# The phase at which an orbit begins should be at least this far from a contact, radian.
 MARGIN = 0.15
-# The list of contacts at first has 2 x CONTACTS x (forcing cycles + segments) rows.
+# A list of contacts at first has room for 2 x CONTACTS x (forcing cycles + segments) contacts.
 CONTACTS = 64
 
 
@@ -37,7 +37,7 @@ class Orbit:
 
     p: Array of all parameters (`model.packed`).
     periods: Period n in forcing cycles.
-    phases: Phases W T at which the segments begin, and the last one's end, shape (m + 1,).
+    phases: Phases W T at which the segments begin, and at which the last segment ends, (m + 1,).
     states: States at which the segments begin, shape (m, 4).
     sign: -1 if the segments cover half the period of a symmetric orbit, otherwise 1.
     ends: States to which integration leads at the ends of the segments, shape (m, 4).
@@ -63,17 +63,17 @@ class Orbit:
 
     @property
     def state(self):
-        """First state, shape (4,)."""
+        """State at which the first segment begins, shape (4,)."""
         return self.states[0]
 
     @property
     def cycle(self):
-        """Increase of the phase W T in the period, or in half the period if `sign` is -1."""
+        """Increase of the phase W T over all segments: a period, or half of it if `sign` is -1."""
         return self.phases[-1] - self.phases[0]
 
     @cached_property
     def defects(self):
-        """Last state of each segment minus first state of the next one, (m, 4); 0 if periodic."""
+        """End of each segment minus beginning of the next segment, shape (m, 4). Ideally 0."""
         defects = np.empty_like(self.ends)
         defects[:-1] = self.ends[:-1] - self.states[1:]
         defects[-1] = self.sign * self.ends[-1] - self.states[0]
@@ -81,7 +81,7 @@ class Orbit:
 
     @cached_property
     def residual(self):
-        """Largest modulus in `defects`."""
+        """Largest difference between the end of a segment and the beginning of the next one."""
         return float(np.abs(self.defects).max())
 
     @property
@@ -95,32 +95,32 @@ class Orbit:
 
     @cached_property
     def matrix(self):
-        """Product of all `factors`, shape (4, 4)."""
+        """Derivative of the last state, times `sign`, by the first state, shape (4, 4)."""
         return reduce(lambda product, factor: factor @ product, self.factors)
 
     @property
     def monodromy(self):
-        """Derivative of the state after one period by the state before, shape (4, 4)."""
+        """Derivative of the state after one period by the first state, shape (4, 4)."""
         return self.matrix @ self.matrix if self.sign < 0 else self.matrix
 
     @property
     def amplification(self):
-        """Spectral norm of the `matrix`: the largest growth of a small disturbance over `cycle`."""
+        """Largest factor by which a small disturbance can grow over all segments."""
         return np.linalg.norm(self.matrix, 2) if np.all(np.isfinite(self.matrix)) else np.inf
 
     @property
     def touching(self):
-        """Time in contact during a period."""
+        """Total time in contact in one period."""
         return self.contact_time * (2 if self.sign < 0 else 1)
 
     @property
     def active(self):
-        """Number of unknowns of a state: 4, or 2 (Z1, Z1') without contacts, even with a damper."""
+        """Number of unknown components of a state: 4, or 2 (Z1, Z1') if there is no contact."""
         return 4 if self.contact_time > 0 else 2
 
     @cached_property
     def multipliers(self):
-        """Floquet multipliers by descending modulus, shape (4,); two are NaN without contacts."""
+        """Floquet multipliers by descending modulus, shape (4,). Without contacts two are NaN."""
         values = np.full(4, complex(np.nan, np.nan))
         active = self.cycle_multipliers ** (2 if self.sign < 0 else 1)
         values[: self.active] = active[np.lexsort((-active.imag, -np.abs(active)))]
@@ -128,7 +128,7 @@ class Orbit:
 
     @cached_property
     def cycle_multipliers(self):
-        """Eigenvalues of the `matrix`, shape (active,), computed more exactly from `factors`."""
+        """Eigenvalues of `matrix`, 4 or 2 (see `active`), computed from `factors` more exactly."""
         n = self.active
         return segments.multipliers(self.factors[:, :n, :n])
 
@@ -155,7 +155,7 @@ class Orbit:
         """Contacts, largest |Z1|, and complex first harmonics of Z1 and Z2, in all segments."""
         states, phases = self.states.copy(), self.phases
         if side_of(self.p, states[0]) != 0:
-            # The first state lies in a contact, which began earlier: survey two times `cycle`.
+            # The first contact began earlier. A survey of twice `cycle` includes its beginning.
             phases = self.phases[0] + np.array([0.0, 2 * self.cycle])
         times = phases / self.p[FREQUENCY]
         room, sums = 2 * CONTACTS * (self.periods + len(states)), np.empty((2, 2))
@@ -170,7 +170,7 @@ class Orbit:
 
     @cached_property
     def contacts(self):
-        """For each contact: wall (-1 or 1), times of beginning and end, Z2' at both; (k, 5)."""
+        """Array with a row for each contact: wall (-1 or 1), begin, end, Z2' at begin and end."""
         log = self._surveyed[0]
         if self.sign > 0:
             return log
@@ -179,13 +179,13 @@ class Orbit:
 
     @cached_property
     def sequence(self):
-        """Walls in the order of contacts, such as "+-"; of all rotations the first by alphabet."""
+        """Walls in the order of contacts, such as "+-", wherever in the period the orbit begins."""
         walls = "".join("+" if wall > 0 else "-" for wall in self.contacts[:, 0])
         return min((walls[k:] + walls[:k] for k in range(len(walls))), default="")
 
     @property
     def least_speed(self):
-        """Smallest |Z2'| at which a contact begins, NaN without contacts."""
+        """Smallest relative speed |Z2'| at which a contact begins, NaN without contacts."""
         return np.min(np.abs(self.contacts[:, 3]), initial=np.inf) if self.touching else np.nan
 
     @property
@@ -195,8 +195,8 @@ class Orbit:
         return np.min(after / before, initial=np.inf) if self.touching else np.nan
 
     def at(self, phase):
-        """Return the state, shape (4,), at a phase W T, radian, not before the first phase."""
-        # A single segment is integrated beyond its end. Several segments are repeated instead.
+        """Return the state at a phase W T (radian), which must not be before the first phase."""
+        # A single segment is integrated beyond its end. If there are several, they are repeated.
         turns = int((phase - self.phases[0]) // self.cycle) if len(self.states) > 1 else 0
         local = phase - turns * self.cycle
         k = min(max(int(np.searchsorted(self.phases, local, "right")) - 1, 0), len(self.states) - 1)
@@ -209,7 +209,7 @@ class Orbit:
         """Deviation from a symmetric orbit or, if `periods` is even, an orbit of half the period.
 
         It is the sum (for even `periods` the difference) of the first state and the state half a
-        period later, shape (4,). Its sign changes where a branch meets a branch of such orbits.
+        period later, shape (4,). It changes its sign where a branch meets a branch of such orbits.
         """
         if self.sign < 0:
             return np.ones(4)
@@ -224,7 +224,7 @@ class Orbit:
 
     @cached_property
     def record(self):
-        """Largest |Z1|, contacts, asymmetry and first harmonics, as a `records.MOTION`."""
+        """Record (`MOTION`) of largest |Z1|, contacts per cycle, asymmetry, first harmonics."""
         record = np.zeros(1, records.MOTION)[0]
         _, largest, harmonics = self._surveyed
         record["maximum_displacement"] = largest
@@ -236,7 +236,7 @@ class Orbit:
         return record
 
     def is_same(self, other, tolerance=1e-6):
-        """Return whether `other` is this orbit or its mirror image, perhaps shifted in time."""
+        """Return whether `other` is this orbit or its mirror image, perhaps some cycles later."""
         if other.periods != self.periods:
             return False
         first = self.phase + (STROBE - self.phase) % TURN + TURN / 2
@@ -259,7 +259,7 @@ class Orbit:
         return np.min(distances, axis=-1, initial=np.inf)
 
     def flight_phase(self):
-        """Return the first phase or, if a contact is near, the middle of the longest flight."""
+        """Return the first phase or, if a contact is near it, the middle of the longest flight."""
         if not self.touching or self.margin(self.phase) > MARGIN:
             return self.phase
         ends = self.p[FREQUENCY] * self.contacts[:, 2]
@@ -270,7 +270,7 @@ class Orbit:
 
 
 def integrate(p, periods, phases, states, sign=1) -> Orbit:
-    """Integrate segments from their first `states`; the `Orbit` need not be periodic."""
+    """Integrate segments from their first `states` to an `Orbit`, which need not be periodic."""
     ends, tangents = np.array(states, float), np.tile(np.eye(4), (len(states), 1, 1))
     phases = np.asarray(phases, float)
     touching = flow_all(p, ends, tangents, phases / p[FREQUENCY], POLISH_TOLERANCE)

@@ -21,8 +21,8 @@ from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.orbits.switching import follow_others, met_by
 
-# A branch of period n > 1 is followed no farther after more than BEYOND / n unstable orbits in a
-# row. Stable parts of the branch beyond this end are narrower than 0.01 in W.
+# A branch of period n > 1 ends after more than BEYOND / n unstable orbits in a row. Stable parts
+# that it has beyond this end are narrower than 0.01 in W.
 BEYOND = 300
 
 
@@ -181,7 +181,6 @@ def orbit_branches(
 
 
 def _all_branches(system, damper, span, motions, progress):
-    """Return the dataset of `orbit_branches` with `motions`."""
     model = read_system(system, damper)
     damper = model.damper
     span = read_span(model.scales, "span", span, "frequency", **bounds.FREQUENCY_RANGE)
@@ -212,7 +211,7 @@ def _all_branches(system, damper, span, motions, progress):
 
 
 def _checked_orbit(model, state, period, phase):
-    """Check a state; return the state and the orbit near it. Raise as `periodic_orbit` does."""
+    """Return a checked state and the orbit near it. Raise ArithmeticError if none is found."""
     bounds.check_count("period", period, most=1000)
     if phase is None:
         carried = carried_phase(state)
@@ -229,7 +228,7 @@ def _checked_orbit(model, state, period, phase):
 
 
 def _seeds(motions, damper):
-    """Yield period, frequency, max |Z1| and state of settled motions from which to start."""
+    """Yield period, frequency, max |Z1| and state of each motion from which to follow a branch."""
     for data in motions:
         chosen = data["outcome"].values == flag("outcome", "settled")
         if damper is not None:
@@ -246,7 +245,6 @@ SLOW = 0.01
 
 
 def _status(orbit):
-    """Return the flag `orbit_status`, which says how reliable an orbit and its multipliers are."""
     if not orbit.converged:
         return flag("orbit_status", "not_converged")
     slow = orbit.touching > 0 and orbit.least_speed < SLOW
@@ -282,7 +280,7 @@ def orbit_variables(pairs):
 
 
 def branches_dataset(branches, back, parameters, title, model=None, more=None):
-    """Return a dataset of branches. `back` maps `Point.value` to the parameter (see `LINEAR`)."""
+    """Return a dataset of branches. The function `back` turns `Point.value` into the parameter."""
     points = [(back(point.value), point.orbit) for branch in branches for point in branch.points]
     sizes = [len(branch.points) for branch in branches]
     events = [(number, *pair) for number, branch in enumerate(branches) for pair in branch.events]

@@ -27,23 +27,23 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 
 # Orthogonal iteration separates two multipliers only if the ratio of their moduli exceeds APART.
 APART = 30.0
-# Orthogonal iteration makes at most SWEEPS sweeps, and ends when a sweep changes the basis by less
-# than SETTLED. It separates multipliers only if the last change of the basis is below COUPLED.
+# Orthogonal iteration makes at most SWEEPS sweeps, and ends if a sweep changes the basis by less
+# than SETTLED. It separates two multipliers only if the last sweep changed it by less than COUPLED.
 SWEEPS, SETTLED, COUPLED = 14, 1e-15, 1e-8
-# If possible, the norm of a segment's derivative is below AMPLIFIED.
+# If possible, a small disturbance grows by less than this factor along a segment.
 AMPLIFIED = 30.0
 # If possible, segments begin at least this far from contacts, radian.
 CLEAR = 0.05
 
 
 def run(p, state, tangents, begin, end):
-    """Integrate a state and its small disturbances (`tangents`) in place, between two phases."""
+    """Integrate a state and its `tangents` (small disturbances) in place from `begin` to `end`."""
     times = begin / p[FREQUENCY], end / p[FREQUENCY]
     advance(p, state, tangents, side_of(p, state), *times, POLISH_TOLERANCE, workspace())
 
 
 def cyclic(factors):
-    """Return the derivative of `Orbit.defects` by the states, shape (m n, m n)."""
+    """Return the derivative of `Orbit.defects` by the first states of m segments, (m n, m n)."""
     m, n = factors.shape[:2]
     matrix, k = np.zeros((m, n, m, n)), np.arange(m)
     matrix[k, :, k] = factors
@@ -52,7 +52,7 @@ def cyclic(factors):
 
 
 def multipliers(factors):
-    """Return the eigenvalues of the product of the matrices `factors`, without multiplying them.
+    """Return the eigenvalues of the product of the matrices `factors`, but not from this product.
 
     Orthogonal iteration makes the product block triangular. Each diagonal block has eigenvalues of
     similar moduli, such as a complex pair.
@@ -82,8 +82,8 @@ def multipliers(factors):
 def sweep(factors, basis, triangles):
     """Compute the QR decompositions A_k Q_(k-1) = Q_k R_k of the matrices A_k in `factors`.
 
-    `triangles` receives the R_k. `basis` is Q_0 at first and the last Q_k at the end. Gram-Schmidt
-    makes each vector orthogonal twice, because rounding errors remain after the first time.
+    `triangles` receives the R_k. `basis` is Q_0 at first and the last Q_k at the end. Each column
+    is made orthogonal to those before twice, because rounding errors remain after the first time.
     """
     m, n = factors.shape[:2]
     moved = np.empty((n, n))
@@ -115,8 +115,8 @@ def cut(orbit, cycle, between=()):
     """Return the phases at which an orbit is cut into segments, shape (m + 1,).
 
     An orbit without contacts is one segment. Otherwise the cuts lie in the middle of flights. If
-    possible, they are so close that the norm of each segment's derivative is below AMPLIFIED. A
-    flight with phases in `between` is cut on both sides of each phase, if there is room.
+    possible, small disturbances grow by less than the factor AMPLIFIED from one cut to the next.
+    A flight with a phase that is in `between` is cut on both sides of this phase, if there is room.
     """
     if not orbit.touching:
         return np.array([orbit.phase, orbit.phase + cycle])
@@ -134,7 +134,7 @@ def cut(orbit, cycle, between=()):
 
 
 def _sections(orbit, cycle, between):
-    """Return two lists of phases: all possible cuts, and the cuts that `between` requires."""
+    """Return the phases at which an orbit may be cut, and those at which it must be cut."""
     log, first = orbit.contacts, orbit.phase
     begins, ends = (orbit.p[FREQUENCY] * log[:, k] for k in (1, 2))
     following = np.append(begins[1:], begins[0] + orbit.periods * 2 * np.pi)
@@ -159,16 +159,16 @@ def _sections(orbit, cycle, between):
 
 
 # Central differences change the parameter by NUDGE. If the second difference exceeds BENT times the
-# first difference, a contact appears or vanishes, and the change is FINE_NUDGE instead.
+# first difference, a contact appears or vanishes. Then the parameter is changed by FINE_NUDGE.
 NUDGE, FINE_NUDGE, BENT = 2e-7, 1e-9, 1e-3
 
 
 @kernel
 def list_turns(p, states, phases, tolerance, turns):
-    """Write the extrema of Z2 in all segments to the n rows of `turns`; return how many exist.
+    """Write the extrema of Z2 in all segments to the n rows of `turns`. Return their number.
 
-    Extrema after the first n are only counted. The columns of `turns` are: the index of the
-    segment, the phase W T, 1 at a maximum of |Z2| or 0 at a minimum, and |Z2| - d0.
+    Extrema after the first n are counted, but not written. The columns of `turns` are: the index
+    of the segment, the phase W T, 1 at a maximum of |Z2| or 0 at a minimum, and |Z2| - d0.
     """
     work, start = workspace(), np.empty(4)
     c = np.empty(max(FLIGHT_ORDER, CONTACT_ORDER) + 1)
@@ -200,7 +200,7 @@ def list_turns(p, states, phases, tolerance, turns):
 
 @kernel
 def flow_all(p, states, tangents, times, tolerance):
-    """Integrate the states and `tangents` of m segments in place; return the time in contact."""
+    """Integrate the states and `tangents` of all segments in place. Return the time in contact."""
     work, touching = workspace(), 0.0
     for k in range(len(states)):
         side = side_of(p, states[k])
@@ -214,8 +214,8 @@ def flow_all(p, states, tangents, times, tolerance):
 def slopes_of_ends(p, rate, phases, states, ends, sign, tolerance, slopes):
     """Compute the derivatives of the segments' `ends` by a parameter, with central differences.
 
-    `rate` is the derivative of the array `p` by this parameter. `sign` is `Orbit.sign`. `slopes`,
-    shape (m, n), receives the first n components of each derivative: 4, or 2 without a damper.
+    `rate` is the derivative of the array `p` by this parameter. `slopes`, shape (m, n), receives
+    the first n components of each derivative. The last derivative is multiplied by `sign`.
     """
     work, none = workspace(), np.empty((0, 4))
     ahead, behind, moved = np.empty(4), np.empty(4), np.empty(COUNT)

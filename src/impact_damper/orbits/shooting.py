@@ -8,21 +8,21 @@ from impact_damper.motions.strobe_map import STROBE
 from impact_damper.orbits import segments
 from impact_damper.orbits.orbit import TURN, Orbit, integrate
 
-# Newton's method makes at most ITERATIONS corrections, and stops if one reaches FAR in a component.
+# Newton's method stops after ITERATIONS corrections, or if a component must change by FAR or more.
 ITERATIONS, FAR = 20, 10.0
-# An orbit with a residual below NEAR is exact enough to be integrated to another phase.
+# An approximate orbit with a residual below NEAR may be integrated to begin at another phase.
 NEAR = 1e-6
-# Multiple shooting is used if `Orbit.amplification` exceeds AMPLIFYING.
+# Multiple shooting is used if a small disturbance can grow by more than this factor on an orbit.
 AMPLIFYING = 100.0
-# After Newton's method an orbit is divided into segments anew if the norm of a matrix in its
-# `factors` is ROUGH x `segments.AMPLIFIED` or more, until it has been divided CUTS times.
+# An orbit is divided into new segments, at most CUTS times, until small disturbances grow along
+# each segment by less than the factor ROUGH x `segments.AMPLIFIED`.
 CUTS, ROUGH = 4, 4.0
 
 
 def shoot(p, state, periods, phase, *, symmetric=False) -> Orbit:
-    """Integrate a period from a state; the `Orbit` has one segment and need not be periodic.
+    """Integrate a state over `periods` forcing cycles, as an `Orbit` of a single segment.
 
-    If `symmetric`, integrate only half the period. `periods` must then be odd.
+    The orbit need not be periodic. If `symmetric`, `periods` is odd, and half of it is integrated.
     """
     cycle = periods * TURN * (0.5 if symmetric else 1.0)
     return integrate(p, periods, (phase, phase + cycle), [state], -1 if symmetric else 1)
@@ -39,8 +39,8 @@ def find_orbit(p, state, periods=1, phase=STROBE) -> Orbit:
         chain = polish(orbit if orbit.residual < NEAR else shoot(p, state, periods, phase))
         if chain.residual < orbit.residual:
             return replace(chain, maps=orbit.maps + chain.maps)
-    # If the first phase lies in a contact, rounding errors grow and the orbit cannot converge. Move
-    # the phase to a flight if the residual is below NEAR.
+    # If the first phase lies in a contact, rounding errors grow and the orbit cannot converge. An
+    # orbit with a residual below NEAR is computed again from a first phase in a flight.
     if not orbit.residual < NEAR or orbit.flight_phase() == orbit.phase:
         return orbit
     phase = orbit.flight_phase()
@@ -51,7 +51,8 @@ def find_orbit(p, state, periods=1, phase=STROBE) -> Orbit:
 def newton(orbit, reach=None) -> Orbit:
     """Return the orbit with the smallest residual that Newton's method finds from `orbit`.
 
-    If `reach` is given, stop at the first converged orbit, or before a state moves by `reach`.
+    If `reach` is given, the method stops at the first converged orbit, or before a correction that
+    would lead a state away from its first value by `reach` or more.
     """
     states, best, maps = orbit.states, orbit, 1
     for _ in range(ITERATIONS):
@@ -77,7 +78,7 @@ def newton(orbit, reach=None) -> Orbit:
 
 
 def polish(orbit) -> Orbit:
-    """Return the orbit that multiple shooting finds close to a given approximation."""
+    """Return the orbit that Newton's method with several segments finds near an approximate one."""
     maps = orbit.maps
     for _ in range(CUTS):
         phases = segments.cut(orbit, orbit.cycle)

@@ -1,7 +1,8 @@
 """Switch to the branches that leave where an orbit loses its symmetry or doubles its period.
 
-The new branch begins in the direction of the eigenvector of -1 in `Orbit.cycle_multipliers`.
-Newton's corrections are orthogonal to this direction and do not lead back to the first branch.
+At such a point one of `Orbit.cycle_multipliers` is -1. The new branch begins in the direction of
+the eigenvector of this multiplier. Newton's corrections are orthogonal to this direction, so that
+they do not lead back to the first branch.
 """
 
 from dataclasses import replace
@@ -15,21 +16,22 @@ from impact_damper.orbits.continuation import Point, Problem
 from impact_damper.orbits.grazing import at_height, through_grazing, turns_of, with_gradient
 from impact_damper.orbits.shooting import shoot
 
-# First guesses lie at each of DISTANCES from the bifurcation. The orbit found may lie ASIDE times
-# this distance away from its first guess.
+# A point of the new branch is sought at each of DISTANCES from the bifurcation. It is accepted if
+# it is at most ASIDE times this distance away from its first guess.
 DISTANCES, ASIDE = (2e-2, 4e-3, 8e-4, 1e-4, 1e-5), 0.5
-# If these guesses fail, a grazing may be near. New guesses multiply |Z2| - d0 in an extremum of Z2
-# by 1 + each of SHARES, within REACH of the bifurcation. An orbit found may be nearer or farther by
-# the fraction MISSED. At most PASSAGES of the orbits found are followed through the grazing.
+# If no point is found, a grazing may be near. Then points are sought at which |Z2| - d0 in an
+# extremum of Z2 is 1 + s times its value at the bifurcation, for each s in SHARES. First guesses
+# lie within REACH of the bifurcation. A point found may be nearer or farther than its first guess
+# by the fraction MISSED. At most PASSAGES points are followed through the grazing.
 SHARES, MISSED, REACH, PASSAGES = (0.5, 0.2, 0.1, 0.05, 0.02), 0.5, 1e-3, 2
-# Kinds of events at which another branch leaves.
+# Kinds of events at which another branch begins.
 LEAVING = ("symmetry_breaking", "period_doubling")
 # Where a branch meets a more symmetric branch, the orbits of both are at most this far apart.
 MEETING = 1e-3
 
 
 def other_branch(event, *, stable=False) -> Point | None:
-    """Return a point (if `stable`, a stable one) of the branch that leaves at an event, or None."""
+    """Return a point of the branch that begins at an event, or None. If `stable`, it is stable."""
     leaving = _leaving(event)
     doubled = event.kind == "period_doubling"
 
@@ -50,10 +52,11 @@ def other_branch(event, *, stable=False) -> Point | None:
 
 
 def _leaving(event):
-    """Return the `Problem`, first unknowns and direction of the branch that leaves at an event."""
+    """Return the `Problem` of the branch that begins at an event, its unknowns and direction."""
     point, problem = event.point, event.point.problem
     doubled = event.kind == "period_doubling"
-    # After `problem.cycle` the orbit's state is multiplied by `sign`, the eigenvector by -`sign`.
+    # The state one `problem.cycle` later is `sign` times the state. In the new direction a small
+    # deviation is then multiplied by -`sign`.
     sign, size = (1 if doubled else -1), 4 if problem.damped else 2
     factors = point.orbit.factors[:, :size, :size].copy()
     factors[-1] *= -1
@@ -71,7 +74,6 @@ def _leaving(event):
 
 
 def _at_distance(leaving, distance):
-    """Return the point of the new branch at a distance from the bifurcation, or None."""
     problem, x, direction = leaving
     guess = x + distance * direction
     near = problem.correct(guess, direction)
@@ -80,7 +82,7 @@ def _at_distance(leaving, distance):
 
 
 def _at_heights(leaving):
-    """Yield points of the new branch, at several heights of the extremum that grazes first."""
+    """Yield points of the new branch, each with another height |Z2| - d0 of one extremum of Z2."""
     problem, x, direction = leaving
     # Search only the first half of the segments. The second half has the same extrema.
     half = (len(problem.phases) - 1) // 2 if problem.damped else 0
@@ -104,19 +106,21 @@ def _at_heights(leaving):
             yield found[0]
 
 
-# From a branch whose period is in WHOLE, stable and unstable branches are followed. From others,
-# only branches that begin stable, with a period up to STABLE. If a branch of a period up to MET
-# ends at a branch of symmetric orbits or of half the period, the branch met is followed too.
+# Branches that begin on a branch with a period in WHOLE are followed, stable or not. Branches that
+# begin on any other branch are followed if they begin stable and have a period up to STABLE. If a
+# branch with a period up to MET ends at a branch of symmetric orbits, or at a branch of half the
+# period, this second branch is followed too.
 WHOLE, STABLE, MET = (1, 3), 9, 4
-# A branch ends at an event if the end differs from the event by less than SAME_VALUE in the
-# parameter and SAME_SIZE in max |Z1|. The end is known only to within 1e-7, because it is a fold.
+# The end of a branch and an event of another branch are the same point if they differ by less than
+# SAME_VALUE in the parameter and by less than SAME_SIZE in max |Z1|. The end is a fold, whose place
+# is known only to within 1e-7.
 SAME_VALUE, SAME_SIZE = 1e-6, 1e-4
-# Bifurcations are equal if their parameters differ by less than NEAR.
+# Two bifurcations are the same if their parameters differ by less than NEAR.
 NEAR = 1e-9
 
 
 def follow_others(branches, follow):
-    """Append to `branches` further branches, found at events and ends of the known branches."""
+    """Follow branches that begin at events and ends of `branches`, and append them to the list."""
     for branch in branches:
         for edge in (0, -1):
             point = _more_symmetric(branches, branch, edge)
@@ -129,7 +133,7 @@ def follow_others(branches, follow):
 
 
 def _more_symmetric(branches, branch, edge):
-    """Return the point of a new, more symmetric branch at which a branch ends, or None."""
+    """Return the point at which a branch ends at an unknown, more symmetric branch, or None."""
     kind, point = branch.ends[edge], branch.points[edge]
     orbit, symmetric = point.orbit, kind == "symmetry_breaking"
     if kind not in LEAVING or orbit.periods > MET:
@@ -145,10 +149,10 @@ def _more_symmetric(branches, branch, edge):
 
 
 def _new_branch(branches, branch, place, event):
-    """Return a point of a new branch that leaves at an event, or None.
+    """Return a point of the branch that begins at an event, or None if it is not to be followed.
 
-    A period doubling must lie next to stable orbits. If the period of `branch` is not in WHOLE, a
-    loss of symmetry must too, and the new branch must begin stable, with a period up to STABLE.
+    A branch that is known already is not followed. At a period doubling, and at each event of a
+    branch with a period not in WHOLE, an orbit of `branch` beside the event must be stable.
     """
     ends = {0: branch.ends[0], len(branch.points) - 1: branch.ends[1]}
     if event.kind not in LEAVING or ends.get(place) == event.kind:
@@ -169,7 +173,7 @@ def _new_branch(branches, branch, place, event):
 
 
 def ends_at(branches, number, edge, event):
-    """Return whether the branch `number` ends at an event of a more symmetric branch."""
+    """Return whether an end of the branch `number` is the event of a more symmetric branch."""
     branch = branches[number]
     if branch.ends[edge] != event.kind or event.kind not in LEAVING:
         return False
@@ -183,7 +187,7 @@ def ends_at(branches, number, edge, event):
 
 
 def met_by(branches, number, edge):
-    """Return the index of the branch at which the branch `number` ends (`edge` 0 or 1), or -1."""
+    """Return the index of the branch at which the end `edge` of a branch lies, or -1."""
     for other, candidate in enumerate(branches):
         if other == number:
             continue
@@ -193,7 +197,7 @@ def met_by(branches, number, edge):
 
 
 def _passes(branch, kind, point):
-    """Return whether a branch passes through a point, or has an event of `kind` there."""
+    """Return whether a branch contains a point, or has an event of `kind` at its parameter."""
     periods = point.orbit.periods
     there = [each.point for _, each in branch.events if each.kind == kind]
     near = any(abs(each.value - point.value) < NEAR for each in there)

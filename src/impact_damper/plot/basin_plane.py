@@ -8,7 +8,7 @@ from impact_damper.data.variables import BASIN_LABEL
 from impact_damper.plot import style
 from impact_damper.plot.sheets import dataset_in, sheet
 
-# Colours of attractors by ascending displacement. The largest of several has the last colour.
+# Colours of attractors in the order of displacement. The largest of several has the last colour.
 COLOURS = (style.SKY, style.VERMILION, style.PURPLE, "#F7E7A6")
 CHAOS = style.ORANGE
 # Colours of states that lead to no attractor, for the labels -6 to -1 (`BASIN_LABEL`).
@@ -59,7 +59,6 @@ def basins(data, axes=None):
 
 
 def _draw_labels(axes, data, colours):
-    """Colour each state by the motion to which the state leads, and add legend entries."""
     labels = data["basin_label"].values
     palette = ListedColormap([*WITHOUT_ATTRACTOR, *colours])
     low, high = -len(WITHOUT_ATTRACTOR) - 0.5, len(colours) - 0.5
@@ -71,7 +70,7 @@ def _draw_labels(axes, data, colours):
 
 
 def _draw_shares(axes, data, colours):
-    """Shade each state: share of places of the loose mass that lead to the smallest motion."""
+    """Shade each state by the share of the loose mass's places that lead to the smallest motion."""
     shades = LinearSegmentedColormap.from_list("shares", [style.WHITE, style.SKY])
     drawn = _fill(axes, data, data["basin_share"][0], cmap=shades, vmin=0, vmax=1)
     words = "share of places of the loose mass"
@@ -87,13 +86,11 @@ def _draw_shares(axes, data, colours):
 
 
 def _fill(axes, data, values, **look):
-    """Colour the states of a plane by values, and return the image."""
     plane = data["basin_displacement"], data["basin_velocity"]
     return axes.pcolormesh(*plane, values, rasterized=True, shading="nearest", **look)
 
 
 def _name(axes, data):
-    """Label the axes. The title has frequency, phase and, if dimensionless, the damper."""
     frequency = data["frequency"]
     if frequency.attrs["units"] == "1":
         names = ("mass_ratio", "clearance") if has_damper(data) else ()
@@ -108,7 +105,6 @@ def _name(axes, data):
 
 
 def _attractor_words(data):
-    """Return for each attractor a text of its period, displacement and share."""
     units = f" {data['attractor_displacement'].attrs['units']}".removesuffix(" 1")
     names = ("attractor_period", "attractor_displacement", "attractor_share")
     return [
@@ -118,5 +114,4 @@ def _attractor_words(data):
 
 
 def _percent(share):
-    """Return a share in per cent; "< 1 %" for a positive share that rounds to 0."""
     return "< 1 %" if 0 < share < 0.005 else f"{100 * share:.0f} %"

@@ -1,4 +1,4 @@
-"""Branches of exact periodic orbits, stable and unstable, with their bifurcations."""
+"""Plots of branches of periodic orbits, stable and unstable, with their bifurcations."""
 
 import numpy as np
 
@@ -16,16 +16,17 @@ EVENTS = {
     "grazing": ("change of contact", "P", style.SKY),
     "merging": ("change of contact", "P", style.SKY),
 }
-# OPEN_ENDS: kinds of ends beyond which a branch goes on, but was not computed. OPEN: their marker.
+# Kinds of ends beyond which a branch goes on but was not computed, and their marker.
 OPEN_ENDS = ("lost", "point_limit", "unstable")
 OPEN = {"marker": "x", "color": style.BLACK, "markersize": 4.5, "linestyle": "none", "zorder": 3.1}
-# Columns: label, colour, opacity of unstable orbits, condition on the period.
+# Looks of branches. Columns: label, colour, opacity of unstable orbits, condition on the period.
 PERIODS = [
     ("period 1", style.BLUE, 1.0, lambda period: period == 1),
     ("period 3", style.PURPLE, 1.0, lambda period: period == 3),
     ("other periods", style.ORANGE, 0.4, lambda period: period not in (1, 3)),
 ]
-# Orbits without a damper. Columns: role if stable, role if unstable, condition on the period.
+# Looks of branches without a damper. Columns: key of `style.ROLES` for stable orbits, key for
+# unstable orbits, condition on the period.
 FREE = [
     ("free_stable", "free_unstable", lambda period: period == 1),
     ("subharmonic_free", "subharmonic_unstable", lambda period: period == 3),
@@ -86,7 +87,7 @@ def followed_label(data):
 
 
 def runs(data, chosen):
-    """Yield the `parts_by_stability` of each branch whose period fulfils the condition `chosen`."""
+    """Yield the stable and unstable parts of each branch for whose period `chosen` is true."""
     stable = data["orbit_stability"].values == flag("orbit_stability", "stable")
     value, size = data["followed_value"].values, data["orbit_displacement"].values
     for branch, period in enumerate(data["branch_period"].values):
@@ -96,7 +97,7 @@ def runs(data, chosen):
 
 
 def parts_by_stability(value, size, stable):
-    """Split a branch where its stability changes. Yield values, sizes, stability of each part."""
+    """Split a branch where stability changes. Yield values, displacements, stability of parts."""
     edges = [0, *(np.flatnonzero(np.diff(stable)) + 1), len(value)]
     for first, last in zip(edges, edges[1:], strict=False):
         if last > first:
@@ -113,7 +114,6 @@ def draw_free_orbits(axes, data):
 
 
 def _mark_open_ends(axes, data):
-    """Mark each end beyond which a branch goes on, but was not computed."""
     chosen = [flag("branch_end", name) for name in OPEN_ENDS]
     number = data["orbit_branch"].values
     for each, ends in enumerate(data["branch_end"].values):
@@ -122,7 +122,7 @@ def _mark_open_ends(axes, data):
 
 
 def _mark_events(axes, data):
-    """Mark the events at which the orbit, or a neighbouring orbit of the branch, is stable."""
+    """Mark those events at which the orbit, or an orbit beside it on the branch, is stable."""
     number, branches = data["orbit_branch"].values, data["event_branch"].values
     stable = data["orbit_stability"].values == flag("orbit_stability", "stable")
     place = np.searchsorted(number, branches) + data["event_place"].values

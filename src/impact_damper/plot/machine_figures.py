@@ -68,9 +68,9 @@ def frequency_panel(axes, data):
 
 
 def over_frequency(data) -> tuple:
-    """Return promised displacements over frequency: for nominal values, and the largest.
+    """Return two curves of the promised displacement over the frequency.
 
-    The largest is taken over all sets of values within the tolerances. NaN is interpolated.
+    The first is for nominal values, the second for the worst tolerated ones. NaN is interpolated.
     """
     frequency, table = data["promise_frequency"].values, data["promise_displacement"].values
     rows = []
@@ -81,7 +81,7 @@ def over_frequency(data) -> tuple:
 
 
 def gap_panel(axes, data):
-    """Draw displacements against the gap: results of the search, and the quiet orbit."""
+    """Draw displacements against the gap: those from the search for a gap, and the quiet orbit."""
     gap = float(data["design_gap"])
     tolerance = parameters_of(data)["tolerances"].get("gap", 0.0)
     axes.axvspan(gap * (1 - tolerance), gap * (1 + tolerance), **TOLERATED)
@@ -141,7 +141,7 @@ def draw_forces(data):
 
 @style.context()
 def draw_transients(data):
-    """Return the figure of two sweeps and a decay, or None if data are missing."""
+    """Return the figure of frequency sweeps up and down and of an unforced decay, or None."""
     if "sweep_envelope" not in data:
         return None
     drawn = style.figure("double", 2.8)
@@ -173,7 +173,7 @@ def draw_transients(data):
 
 @style.context({"axes.labelsize": 8.0, "lines.markersize": 2.6})
 def draw_machines(*, machines):
-    """Return a figure with the two panels of `draw_answer` for each machine, in a row each."""
+    """Return a figure with a row for each machine: displacements over frequency and over gap."""
     drawn = style.figure("double", 1.0 + 1.75 * len(machines))
     panels = drawn.subplots(len(machines), 2, squeeze=False)
     for (left, right), data, letter in zip(panels, machines, ascii_lowercase, strict=False):

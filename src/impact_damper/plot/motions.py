@@ -49,7 +49,7 @@ def orbit(data, axes=None):
 
 
 def phase_panel(axes, run):
-    """Draw velocity against displacement of the primary mass, as a thick line in contact."""
+    """Draw velocity against displacement of the primary mass. The line is thick in contacts."""
     axes.plot(run["displacement"], run["velocity"], color=style.BLACK, linewidth=0.8)
     for wall, look in WALLS.items():
         axes.plot(run["displacement"], run["velocity"].where(_in_contact(run, wall)), **look)
@@ -57,7 +57,6 @@ def phase_panel(axes, run):
 
 
 def _time_panel(axes, run):
-    """Draw Z1 and, if there is a contact, Z2 against time. The line of Z2 is thick in contact."""
     time, relative = run["time"], run["relative_displacement"]
     axes.plot(time, run["displacement"], color=style.BLACK, label="primary mass, $Z_1$")
     if len(run["contact_wall"]):
@@ -73,7 +72,6 @@ def _time_panel(axes, run):
 
 
 def _in_contact(run, wall):
-    """Return the mask of times in contact with a wall. The end of an unfinished contact is NaN."""
     chosen = run["contact_wall"].values == wall
     contacts = run[["contact_begin", "contact_end"]].isel(contact=chosen)
     begun = contacts["contact_begin"] <= run["time"]

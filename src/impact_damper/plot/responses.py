@@ -9,7 +9,7 @@ from impact_damper.plot.sheets import datasets_in, sheet
 
 # Look of the line that joins the settled motions of a branch.
 JOINED = {"linestyle": "-", "linewidth": 0.5}
-# Outcome of a motion, except settled -> look. DAMPED: with a damper. FREE: without a damper.
+# Looks of motions that have not settled, by their outcome, with (DAMPED) and without (FREE) damper.
 DAMPED = {name: style.ROLES[name] for name in ("chaotic", "chaotic_transient", "quasi_periodic")}
 DAMPED |= {name: style.ROLES["non_colliding"] for name in ("non_colliding", "drifting")}
 DAMPED["unresolved"] = style.ROLES["unresolved"]
@@ -17,7 +17,7 @@ FREE = {
     "chaotic": style.ROLES["chaotic"] | {"label": "free, chaotic"},
     "unresolved": style.ROLES["unresolved"] | {"label": "free, unresolved"},
 }
-# Looks of results of `steady_motion`.
+# Looks of motions from `steady_motion`.
 SETTLED = style.ROLES["period_1"] | JOINED | {"label": "settled"}
 STILL = style.ROLES["non_colliding"] | {"label": "no contact"}
 UNSETTLED = style.ROLES["chaotic"] | {"label": "not settled"}
@@ -87,7 +87,7 @@ def _kind(data):
 
 
 def _draw_orbits(axes, orbits, stable):
-    """Draw orbits. With a damper: stable ones only if `stable`, unstable ones only of period 1."""
+    """Draw orbits, with a damper stable orbits only if `stable`, unstable orbits of period 1."""
     if not has_damper(orbits):
         draw_free_orbits(axes, orbits)
         return
@@ -100,7 +100,7 @@ def _draw_orbits(axes, orbits, stable):
 
 
 def _draw_balance(axes, balance, free):
-    """Draw the suppression band, stable solutions with contact and, if `free`, free solutions."""
+    """Draw results of harmonic balance. Solutions without a damper are drawn only if `free`."""
     if "band_status" in balance and balance["band_status"] == flag("band_status", "found"):
         axes.axvspan(*balance["edge_frequency"].values, **style.ROLES["band"])
     if free:
@@ -114,7 +114,6 @@ def _draw_balance(axes, balance, free):
 
 
 def _draw_solutions(axes, amplitude, role):
-    """Draw amplitudes, shape (frequency, solution). A solution that is all NaN is left out."""
     for branch in np.abs(amplitude.values).T:
         if np.isfinite(branch).any():
             style.draw(axes, amplitude["frequency"], branch, **style.ROLES[role])
@@ -134,7 +133,7 @@ def _draw_unstable(axes, balance):
 
 
 def _draw_motions(axes, motions):
-    """Draw motions from random starts. Lines join settled motions. Other motions are points."""
+    """Draw motions from random starts. Lines join motions that have settled. Others are points."""
     period, settled = motions["period"].values, is_settled(motions)
     if has_damper(motions):
         settled = settled & (motions["contacts"].values > 0)
@@ -154,7 +153,7 @@ def _draw_motions(axes, motions):
 
 
 def _branch_lines(motions, chosen):
-    """Yield a line (frequencies, displacements) for each branch and period, up to known ends."""
+    """Yield frequencies and displacements of each branch and period, and of known branch ends."""
     branch, period = motions["branch"].values, motions["period"].values
     names = ("end_branch", "end_direction", "end_value", "end_displacement")
     ends = list(zip(*(motions[name].values for name in names), strict=True))
@@ -171,7 +170,7 @@ def _branch_lines(motions, chosen):
 
 
 def _draw_unsettled(axes, motions, looks):
-    """Draw unsettled motions as points, and chaos as a transient where `life_ends` > 0."""
+    """Draw motions that have not settled. Chaos that ended (`life_ends` > 0) is a transient."""
     for status, look in looks.items():
         outcome = "chaotic" if status == "chaotic_transient" else status
         chosen = motions["outcome"].values == flag("outcome", outcome)
@@ -185,7 +184,6 @@ def _draw_unsettled(axes, motions, looks):
 
 
 def _draw_steady(axes, motions):
-    """Draw steady motions. A line joins settled motions in the order of the datasets."""
     frequency, size, outcome = (
         np.concatenate([np.ravel(each[name]) for each in motions])
         for name in ("frequency", "maximum_displacement", "outcome")
@@ -198,7 +196,6 @@ def _draw_steady(axes, motions):
 
 
 def _label(axes, given):
-    """Label the axes. The vertical axis is for the first variable of SIZES in a dataset."""
     first = given[0]
     swept = "frequency" in first.coords
     axes.set_xlabel(style.axis_label(first["frequency"]) if swept else followed_label(first))

@@ -41,7 +41,7 @@ def dataset_in(data, takes, words) -> xr.Dataset:
 def sheet(axes, count=1, height=3.6, columns=3):
     """Return a context that yields the given axes, or `count` axes of a new figure.
 
-    A new figure is `height` inches high. Its legend has `columns` columns. 0 columns: no legend.
+    A new figure is `height` inches high. Its legend has `columns` columns; 0 means no legend.
     """
     if axes is not None:
         given = list(np.ravel(np.array(axes, object)))

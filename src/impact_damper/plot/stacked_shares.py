@@ -78,7 +78,6 @@ def shares(data, axes=None):
 
 
 def _look(kind, rank):
-    """Return the look of a motion. `rank` counts the motions of a kind from 0."""
     colour, hatch = LOOKS[kind]
     if rank and kind == "period 1":
         hatch = "----"  # pale blue without hatching resembles another kind
@@ -88,7 +87,7 @@ def _look(kind, rank):
 
 
 def _ranked_motions(data):
-    """Return (kind, rank, mask) of each motion. In each kind rank 0 has the most starts."""
+    """Return kind, rank and mask of each motion. Most starts lead to rank 0 of a kind."""
     found, ranks = {kind: [] for kind in LOOKS}, Counter()
     for each in families(data):
         if each.starts:
@@ -103,7 +102,7 @@ def _ranked_motions(data):
 
 
 def _parts(data, kind, places):
-    """Split the mask of a motion by kind. Chaos is a chaotic transient where `life_ends` > 0."""
+    """Return {kind: mask} of a motion. Chaos that ended (`life_ends` > 0) is another kind."""
     if kind != "chaotic" or "life_ends" not in data:
         return {kind: places}
     ended = data["life_ends"].values > 0

@@ -118,7 +118,7 @@ MATHTEXT = {"rm": "r_m", "W": r"\Omega"}
 
 
 def context(*changes):
-    """Return a context manager or decorator that sets the common style with `changes`."""
+    """Return a context manager or decorator that sets the common style, and then `changes`."""
     return matplotlib.style.context(["default", STYLE, *changes])
 
 
@@ -128,7 +128,7 @@ def figure(column, height) -> Figure:
 
 
 def grid(count, row, rest, columns=2, **shared):
-    """Return a figure and its lettered axes. Height: `rest` inches + `row` inches for each row."""
+    """Return a figure, `rest` + `row` x (number of rows) inches high, and its lettered axes."""
     columns = min(columns, count)
     rows = -(-count // columns)
     drawn = figure("double", rest + row * rows)
@@ -157,7 +157,7 @@ def draw(axes, x, y, *, label=None, **look) -> None:
 
 
 def once(axes, label):
-    """Return a label, or None if the axes have the label, so that a legend lists it once."""
+    """Return a label, or None if the axes have it already, so that a legend lists it once."""
     return None if label in axes.get_legend_handles_labels()[1] else label
 
 

@@ -68,12 +68,10 @@ def sweep(data, axes=None):
 
 
 def _balanced(sweep):
-    """Return whether a sweep has an optimum by harmonic balance."""
     return bool(np.isfinite(sweep["analytical_optimum"]))
 
 
 def _draw_sweep(axes, sweep, index):
-    """Draw a sweep: points, a line through the optimum, and the clearances near the optimum."""
     clearance, size = sweep["clearance"].values, sweep["quiet_displacement"].values
     best, least = float(sweep["optimum_clearance"]), float(sweep["optimum_displacement"])
     color = {"color": style.curve(index)["color"], "label": None}
@@ -91,14 +89,14 @@ def _draw_sweep(axes, sweep, index):
 
 
 def _titles(sweeps):
-    """Return the legend texts: the damper's mass, and parameters that differ between sweeps."""
+    """Return a text for each sweep: mass of the damper, and parameters that differ in sweeps."""
     *others, masses = zip(*map(_parameters, sweeps), strict=True)
     different = [texts for texts in others if len(set(texts)) > 1]
     return [", ".join(words) for words in zip(*different, masses, strict=True)]
 
 
 def _parameters(sweep):
-    """Return texts for the parameters that may differ between sweeps, the damper's mass last."""
+    """Return a text for each parameter that may differ between sweeps. The mass is last."""
     values = parameters_of(sweep)
     if "machine" not in sweep.attrs:
         return [style.parameter_label(values, name) for name in VARIED]

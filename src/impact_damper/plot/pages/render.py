@@ -35,7 +35,7 @@ def conclusion(data) -> list[str]:
 def check_folder(folder, machine, force) -> None:
     """Raise OSError if files cannot be written into a folder.
 
-    Without `force`, also raise it for a page of another program, or data of another machine.
+    Without `force`, also raise it if the folder has a foreign page or data of another machine.
     """
     check_writable(folder / "index.html")
     if force:
@@ -90,14 +90,12 @@ def page_of(name, data, pictures, file=None, date="") -> str:
 
 
 def _conclusion(numbers):
-    """Return the paragraphs of the conclusion."""
     text = _environment(False).get_template("conclusion.jinja").render(numbers)
     parts = [_one_line(part) for part in re.split(r"\n\s*\n", text) if part.strip()]
     return [re.sub(r" ([,.:;])", r"\1", part) for part in parts]
 
 
 def _environment(escaping):
-    """Return the Jinja environment of the templates, with filters that format numbers."""
     environment = Environment(
         loader=PackageLoader("impact_damper.plot.pages"),
         autoescape=escaping,
@@ -112,14 +110,13 @@ def _environment(escaping):
 
 
 def _one_line(text):
-    """Return a text in one line. Escaped HTML stays escaped."""
     joined = " ".join(str(text).split())
     return Markup(joined) if isinstance(text, Markup) else joined
 
 
 # Decay time: time in which an unforced vibration falls to this fraction of the first displacement.
 DECAY = 0.1
-# Words on the page. ADDITIONS: for `design.additions`. QUANTITIES: for values with a tolerance.
+# Words on the page for optional results (ADDITIONS), and for values with a tolerance (QUANTITIES).
 ADDITIONS = {
     "response": "motions and forces at the gap",
     "orbits": "the quiet orbit over the gap",
@@ -141,8 +138,8 @@ QUANTITIES = {
 }
 # With fewer than HARDLY impacts in a cycle the loose mass is only ballast.
 HARDLY = 0.2
-# Columns of GIVEN: key of the machine, description, unit, divisor, key of the tolerance or None.
-# Columns of COSTS: name of a variable, description, unit, factor.
+# Columns of two tables. GIVEN: key of the machine, description, unit, divisor, key of the tolerance
+# or None. COSTS: variable of the design, description, unit, factor.
 TABLES = {
     "GIVEN": (
         ("mass", "mass without the loose mass", "kg", 1, None),
@@ -248,7 +245,7 @@ def _hits(data) -> float:
 
 
 def _peak(data, name) -> SimpleNamespace:
-    """Return a variable's largest value over the band, and its frequency. Both may be NaN."""
+    """Return the largest value of a variable over the band, and its frequency, or NaN for both."""
     if name not in data or np.isnan(data[name]).all():
         return SimpleNamespace(size=np.nan, frequency=np.nan)
     k = int(np.nanargmax(data[name].values))
@@ -266,7 +263,6 @@ def _worst_values(data):
 
 
 def _shocks(data):
-    """Return the effects of impulses on the machine, or None if not computed."""
     if "shock_return" not in data:
         return None
     impulses, cycles = np.abs(data["shock_impulse"].values), data["shock_return"].values
@@ -344,7 +340,7 @@ def _other_mass(data, asked):
 
 
 def _masses(data, asked):
-    """Return table rows: the damper asked for, a heavier one; [] if no heavier one was computed."""
+    """Return the rows of a table of dampers with other masses, [] if none was computed."""
     if "other_mass" not in data:
         return []
     names = ("other_mass", "other_gap", "other_displacement", "other_force")
@@ -356,7 +352,7 @@ def _masses(data, asked):
 
 
 def _transients(data, asked):
-    """Return the largest displacements in sweeps (`swept`), and the decay times (`rung`)."""
+    """Return the largest displacements in frequency sweeps (`swept`) and decay times (`rung`)."""
     if "sweep_envelope" not in data:
         return {"swept": [], "rung": None}
     low, high = asked["band"]
