@@ -13,7 +13,7 @@ from impact_damper.data.datasets import oscillator_of
 
 
 def widening(datasets):
-    """Return numbers that test claim 4: omega_l, rm and a lower e widen the suppression band."""
+    """Return numbers that test claim 4: larger omega_l, larger rm or lower e widens the band."""
     stiffer, heavier = (
         [reading.select(datasets, "harmonic_balance", names) for names in series]
         for series in ((reading.CAPTIONS, reading.RULES), (reading.BY_MASS,))
@@ -46,7 +46,7 @@ def _growth(series, width):
 
 
 def _remaining(datasets, names):
-    """Return for each design max |Z1| of the exact quiet orbit over that of the free resonance."""
+    """Return for each design max |Z1| of the exact quiet orbit over max |Z1| of the resonance."""
     return [
         float(reading.design_point(orbit).orbit_displacement)
         / orbits.resonance_fold(orbits.free_of(datasets, orbit))[1]

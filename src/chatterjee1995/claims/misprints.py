@@ -46,7 +46,7 @@ def penetration(datasets):
 
 
 def captions(datasets):
-    """Return numbers on misprint S2: clearances in captions of figure 3, and clearances by (19)."""
+    """Return numbers on misprint S2: clearances printed with figure 3, and those of rule (19)."""
     numbers = {}
     for panel, *names in zip("ba", CAPTIONS[1:], RULES[1:], strict=True):
         designs = reading.select(datasets, "harmonic_balance", names)

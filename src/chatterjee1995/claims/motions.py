@@ -139,6 +139,6 @@ def _duration(restitution):
 
 
 def _pull_free_error(restitution):
-    """Return the relative excess of the restitution over its nominal value if walls cannot pull."""
+    """Return by which fraction the restitution exceeds its nominal value if walls cannot pull."""
     damping = damping_ratio(restitution)
     return math.exp(2 * math.asin(damping) * damping * _duration(restitution)) - 1

@@ -41,7 +41,7 @@ def draw_optimum(*, optimum):
 
 @style.context()
 def draw_design_rules(*, design_rules):
-    """Draw best clearances over a parameter, clearances by rules, and the errors of the rules."""
+    """Draw the best clearance and rules for it over a parameter, and the errors of the rules."""
     swept = [[name for name in SWEPT if data.sizes[name] > 1] for data in design_rules]
     sweeps = [
         (d, names[0]) for d, names in zip(design_rules, swept, strict=True) if len(names) == 1
@@ -95,7 +95,7 @@ def _draw_errors(axes, datasets):
 
 @style.context()
 def draw_studies(*, studies):
-    """Draw the largest displacement over mass ratio and clearance, for each e and frequency."""
+    """Draw maps of the largest displacement, one for each restitution and forcing frequency."""
     (data,) = studies
     pairs = list(product(data["restitution"].values, data["frequency"].values))
     rows, columns = data.sizes["restitution"], data.sizes["frequency"]

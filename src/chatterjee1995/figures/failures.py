@@ -99,7 +99,7 @@ def _draw_method(axes, data, index, title):
 
 
 def _edges(values):
-    """Return edges of map cells around values on a log axis. A single cell is a decade wide."""
+    """Return edges of map cells around values on a log axis. One cell alone is a decade wide."""
     if len(values) == 1:
         return np.asarray(values) * np.sqrt([0.1, 10])
     return np.exp(edges_of(np.log(values)))

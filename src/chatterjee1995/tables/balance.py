@@ -138,7 +138,7 @@ def balance_map(datasets) -> pd.DataFrame:
 
 
 def _answers(meaning):
-    """Return what harmonic balance says and what is true, for a verdict like "stable_absent"."""
+    """Split a verdict, such as "stable_absent", into what harmonic balance says and the truth."""
     balance, _, truth = meaning.partition("_")
     if balance not in ("none", "stable", "unstable") or not truth:
         balance, truth = "", meaning
