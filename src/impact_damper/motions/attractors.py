@@ -1,8 +1,9 @@
-"""Attractors, labels of states, and release sets: all states that lead to the goal of migration.
+"""Attractors, labels of states, and release sets.
 
 An attractor is a stable orbit. The label of a state names the attractor to which the state leads. A
-neighbourhood is an ellipse around a state of a free orbit at the strobe (W T = pi/2). Every motion
-that enters the ellipse tends to the orbit (docs/explanation/neighbourhoods.md), so its run ends.
+release set holds all free states that lead to the goal of migration. A neighbourhood is an ellipse
+around a state of a free orbit at the strobe (W T = pi/2). A run ends when the motion enters the
+ellipse, because the motion then tends to the orbit (docs/explanation/neighbourhoods.md).
 """
 
 import math
@@ -20,14 +21,14 @@ from impact_damper.motions import ensemble, records, traces
 from impact_damper.motions.start_states import free_motions
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, STROBE, strobe_time
 
-# Neighbourhoods. STEPS: time steps in a forcing cycle. FACTOR: bound on an ellipse's size after a
-# period, divided by its size before. HALVINGS: bisections in the search for the largest ellipse.
+# STEPS: time steps in a forcing cycle. FACTOR: bound on the size of a neighbourhood after a period,
+# divided by its size before. HALVINGS: bisections in the search for the largest neighbourhood.
 STEPS, FACTOR, HALVINGS = 256, 0.98, 30
 # ALIKE: two free orbits are equal if their states at the strobe differ by less than this number.
 # SAME: two motions with the damper are equal if their max |Z1| differ by less than this fraction.
 ALIKE, SAME = 1e-6, 1e-5
 # Grid of states in the search for orbits. SEARCHED: number of grid points along each axis. REACH:
-# width in Z1 divided by the largest |Z1| of free motions, and width in Z1' by the largest |Z1'|.
+# width of the grid in Z1, divided by the largest |Z1| of free motions. The same holds for Z1'.
 REACH, SEARCHED = 3.0, 24
 # Labels of unsettled motions, by outcome. The label of a settled motion is its attractor's index.
 LABELS = {
@@ -39,7 +40,7 @@ LABELS = {
     records.DRIFTING: BASIN_LABEL["no_contact"],
     records.QUASI_PERIODIC: BASIN_LABEL["quasi_periodic"],
 }
-# Grids of a release set. PHASES: number of forcing phases, even. WIDTH: half width of a grid in Z1,
+# PHASES: number of forcing phases in a release set, even. WIDTH: half width of its grids in Z1,
 # divided by max |Z1| of the resonance motion. REFINED: fine cells per coarse cell along each axis.
 PHASES, WIDTH, REFINED = 16, 1.6, 4
 
@@ -58,21 +59,21 @@ class Attractors(NamedTuple):
 
 
 def find_attractors(p, states, settling) -> Attractors:
-    """Run free motions from states (Z1, Z1') at the strobe, shape (n, 2); return `Attractors`."""
+    """Return the attractors to which `states` lead: rows (Z1, Z1') at the strobe, shape (n, 2)."""
     starts = np.tile(np.asarray(states, float).reshape(-1, 2), 2)
     motions = ensemble.settle(np.tile(p, (len(starts), 1)), starts, settling, from_strobe=True)
     return with_neighbourhoods(p, _distinct(p, motions[is_settled(motions)]))
 
 
 def free_attractors(p, window, settling) -> Attractors:
-    """Find `Attractors` from states on a grid. `window` is its half width in Z1 and in Z1'."""
+    """Return the attractors to which a grid of states with the half widths `window` leads."""
     grid = [np.linspace(-half, half, SEARCHED) for half in window]
     states = np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2)
     return find_attractors(p, states, settling)
 
 
 def with_neighbourhoods(p, records) -> Attractors:
-    """Compute the neighbourhoods of known orbits; return orbits and neighbourhoods together."""
+    """Return the orbits in `records` together with the neighbourhoods of all their states."""
     orbits = [orbit_states(p, record, STROBE)[:, :2] for record in records]
     shapes = [neighbourhood(p, state, len(states)) for states in orbits for state in states]
     owner = np.repeat(np.arange(len(records)), records["period"])
@@ -81,7 +82,7 @@ def with_neighbourhoods(p, records) -> Attractors:
 
 
 def orbit_states(p, record, phase):
-    """Return the states of an orbit at a forcing phase, one for each cycle, shape (period, 4)."""
+    """Return the states, shape (period, 4), in which an orbit passes a forcing phase."""
     period = 2 * np.pi / p[FREQUENCY]
     begin = strobe_time(p)
     first = begin + (phase / p[FREQUENCY] - begin) % period
@@ -90,7 +91,7 @@ def orbit_states(p, record, phase):
 
 
 def _distinct(p, motions):
-    """Return one record for each orbit, by ascending max |Z1|. Mirror images are two orbits."""
+    """Return one record of each orbit, by ascending max |Z1|. A mirror image is another orbit."""
     kept, seen = [], []
     for record in motions[np.argsort(motions["maximum_displacement"], kind="stable")]:
         known = any(
@@ -105,7 +106,7 @@ def _distinct(p, motions):
 
 
 def linear_flow(p, state, periods):
-    """Return Z1 (n,) along an orbit, and (n, 2, 2) the derivative of each state by the first."""
+    """Return Z1 (n,) along an orbit, and dz(t)/dz(0) (n, 2, 2) for its state z = (Z1, Z1')."""
     y, tangents, work = np.tile(state, 2), np.eye(4)[:2].copy(), workspace()
     times = strobe_time(p) + np.arange(periods * STEPS + 1) * 2 * np.pi / (STEPS * p[FREQUENCY])
     displacement, matrices = [y[0]], [np.eye(2)]
@@ -117,7 +118,7 @@ def linear_flow(p, state, periods):
 
 
 def neighbourhood(p, state, periods):
-    """Return the matrix S of a neighbourhood |S (z - state)| < 1; infinite if none is proved."""
+    """Return the matrix S of a neighbourhood |S (z - state)| < 1. S is infinite without a proof."""
     displacement, matrices = linear_flow(p, state, periods)
     values, vectors = np.linalg.eig(matrices[-1])
     if not np.max(np.abs(values)) < 1:
@@ -141,7 +142,8 @@ def _radius(coefficients, step, contraction):
     """Return the largest r(0) for which `contraction` r(P) < FACTOR r(0). P is the orbit's period.
 
     `contraction` is the largest modulus of a multiplier. r(t) bounds the nonlinear growth of the
-    distance from the orbit: r' = a r^2 + b r^3 with `coefficients` a, b >= 0. Steps overestimate r.
+    distance from the orbit. It obeys r' = a r^2 + b r^3, where `coefficients` holds a, b >= 0. The
+    numerical solution overestimates r.
     """
     low, high = 0.0, 10.0
     for _ in range(HALVINGS):
@@ -160,8 +162,9 @@ def _radius(coefficients, step, contraction):
 def label_damped(p, states, phase, settling, known=(), workers=1, progress=None):
     """Run motions with the damper from states (n, 4); return labels, cycles run, and attractors.
 
-    A label is the index of an attractor, or a flag in LABELS if the motion does not settle. The
-    attractors are the `known` ones, then new ones. `phase` is the forcing phase of the states.
+    `phase` is the forcing phase of the states. The attractors are records: first those in `known`,
+    then new ones. The label of a state is the index of an attractor, or a flag in LABELS if the
+    motion does not settle.
     """
     begin = phase % (2 * np.pi) / p[FREQUENCY]
     if begin > strobe_time(p):
@@ -191,8 +194,8 @@ class ReleaseSet(NamedTuple):
     """The states of the free oscillator at one frequency that lead to the goal of migration.
 
     The goal is the smallest free motion of period 1, the attractor with the index `goal`. `depth`
-    holds each grid cell's distance, in the plane (Z1, Z1'/W), from the edge of the set, negative
-    outside. The array has the axes phase, Z1', Z1. `half` is the grid's half width in Z1 and Z1'.
+    has the axes phase, Z1', Z1. It holds the distance of each grid cell from the edge of the set,
+    in the plane (Z1, Z1'/W), negative outside the set. `half` holds the half widths of the grid.
     """
 
     p: np.ndarray
@@ -235,7 +238,7 @@ def release_set(oscillator, frequency, settling, *, cells=64, workers=1) -> Rele
 
 
 def _refined(inside, half, cells):
-    """Return a mask of the fine cells in a set. `inside(states)` is True for states in the set."""
+    """Return a mask of a grid's fine cells in a set. `inside(states)` is True for states in it."""
     mask = inside(_centres(half, cells)).reshape(cells, cells)
     for _ in range(int(math.log2(REFINED))):
         edge = maximum_filter(mask, 3) != minimum_filter(mask, 3)
@@ -247,15 +250,14 @@ def _refined(inside, half, cells):
 
 
 def _centres(half, cells):
-    """Return the centres (Z1, Z1') of a grid's cells, shape (cells^2, 2). Z1 varies fastest."""
     middles = (np.arange(cells) + 0.5) * 2 / cells - 1
     return np.stack(np.meshgrid(half[0] * middles, half[1] * middles), axis=-1).reshape(-1, 2)
 
 
 def signed_distance(inside):
-    """Return each cell's distance from the boundary of a set, in cell widths, negative outside."""
+    """Return each cell's distance from the edge of a set, in cell widths, negative outside it."""
     if inside.all() or not inside.any():
         return np.where(inside, np.inf, -np.inf)
-    # The boundary is half a cell width nearer than the centre of the nearest cell beyond it.
+    # The edge is half a cell width nearer than the centre of the nearest cell beyond the edge.
     inward, outward = distance_transform_edt(inside), distance_transform_edt(~inside)
     return np.where(inside, inward - 0.5, 0.5 - outward)

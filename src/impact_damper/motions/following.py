@@ -14,14 +14,17 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE, polish, repeats_s
 
 # Factor by which the step of the parameter grows after a successful step.
 GROWTH = 1.5
-# Newton's method moves a predicted state by less than REACH, the first state by less than NUDGE.
+# Newton's method may move a predicted state by at most REACH, and the first state by at most NUDGE.
 REACH, NUDGE = 0.03, 1e-3
 # Smallest step of the parameter. The end of a branch is found to this accuracy.
 RESOLUTION = 1e-8
 
 
 class Followed(NamedTuple):
-    """The last two parameter values, their orbits, last status, whether the target is reached."""
+    """The last two values of the parameter and their orbits; the status of the last correction.
+
+    `arrived` says whether the target is reached.
+    """
 
     values: tuple[float, float]
     orbits: tuple
@@ -55,11 +58,12 @@ def follow(
 ) -> Followed:
     """Follow an orbit from one value of a parameter to another, or as far as possible.
 
-    `correct(value, predicted state)` returns an orbit (None on failure) and a status. The first
-    step goes to `target`. A step fails if `correct` fails, or if Z1, Z1' or Z2 changes by `reach`
-    or more. A failure halves the step, a success multiplies it by `growth`. Following stops if a
-    step is below `shortest`. If `extrapolating`, a prediction lies on the line through the last two
-    orbits. `behind` is an orbit before the first, at the parameter value 2 start - target.
+    `orbit` is the orbit at `start`. `correct(value, predicted state)` returns an orbit (None on
+    failure) and a status. The first step goes to `target`. A step fails if `correct` fails, or if
+    Z1, Z1' or Z2 changes by `reach` or more. A failure halves the step, a success multiplies it by
+    `growth`. Following stops if a step is below `shortest`. The predicted state is the last one,
+    or, if `extrapolating`, lies on the line through the states of the last two orbits. `behind`, if
+    given, is the orbit before `orbit`, at the value 2 start - target.
     """
     value, step, status = start, target - start, ""
     before, last_step = (start, orbit), target - start
@@ -114,6 +118,6 @@ def follow_stable(p, state, periods, parameter, target) -> tuple:
 
 
 def record_at(p, state, periods, parameter, value, tolerance=POLISH_TOLERANCE):
-    """Follow a stable orbit to a parameter value; return its record, or None if the branch ends."""
+    """Follow a stable orbit to `value`; return the record there, or None if the branch ends."""
     p, orbit = follow_stable(p, state, periods, parameter, value)
     return measured(p, orbit.state, periods, tolerance) if p[parameter] == value else None

@@ -1,4 +1,4 @@
-"""Legs of a run of migration control. In a leg the damper stays on, or stays off.
+"""Legs: parts of a run of migration control in which the damper stays on, or stays off.
 
 Z1 and Z1' are continuous in the whole run. Switching the damper does not change them, and a settled
 motion goes on from its own last state, not from the exact state of its orbit.
@@ -17,9 +17,9 @@ from impact_damper.motions.records import ESCAPED, MOTION, NEVER, UNRESOLVED, me
 from impact_damper.motions.strobe_map import one_period, speed_weight, strobe_time
 from impact_damper.motions.watch import NEAR, NEAREST, RING, move_onto_orbit, nearby_period
 
-# Forcing cycles in one call of a kernel. Ctrl-C waits until the call ends.
+# Number of forcing cycles in one call of a kernel. Ctrl-C waits until the call ends.
 STROBES_AT_ONCE = 50_000
-# Rules that say when `hold` ends, which is when the damper is switched off.
+# Rules for `hold`. They say when to switch the damper off.
 SETTLED, HOLD, PHASE, STATE = range(4)
 
 
@@ -55,7 +55,7 @@ def run(p, y, ahead, strobe, tolerance, limit, stop=NEVER):
 
 @kernel
 def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, path, out):
-    """Do `run` from strobe `first` to strobe `last`; return `side` and `near` (see `watch`)."""
+    """Run a motion from strobe `first` to strobe `last`, or until it settles or escapes."""
     work = workspace()
     none = np.empty((0, 4))
     for k in range(first, last):
@@ -79,13 +79,13 @@ def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, p
 
 
 def leg(before, after, y, wait, place, strobe, tolerance, limit, stop=NEVER):
-    """Call `wait_and_switch` at the strobe, then `run`; return the results of `run`."""
+    """Wait from the strobe on, switch the damper, and run on; return the results of `run`."""
     wait_and_switch(before, after, y, wait, place, tolerance)
     return run(after, y, 1.0 - wait % 1.0, strobe + math.floor(wait) + 1.0, tolerance, limit, stop)
 
 
 def wait_and_switch(before, after, y, wait, place, tolerance):
-    """Run from a strobe for `wait` forcing cycles, then switch the damper; return the last time.
+    """Run from a strobe for `wait` forcing cycles, then switch the damper; return the time then.
 
     `before` and `after` are the packed parameters before and after the switching. Switching the
     damper on sets Z2 to `place` times the clearance, and Z2' to 0.
@@ -101,10 +101,10 @@ def wait_and_switch(before, after, y, wait, place, tolerance):
 
 
 def hold_by_state(off, on, y, wait, place, strobe, tolerance, longest, releases):
-    """Wait, switch the damper on and later off; return the path in between, rows as in `run`.
+    """Wait, switch the damper on, run, and switch it off; return the path with the damper on.
 
     The damper is switched off when the state is in the release set `releases`, or after `longest`
-    cycles. The state after switching off replaces y and is the last row of the path.
+    cycles. The path has rows as in `run`. Its last state, after switching off, replaces y.
     """
     begin = wait_and_switch(off, on, y, wait, place, tolerance)
     path = np.full((longest + 2, 5), np.nan)
@@ -123,7 +123,7 @@ def hold_by_state(off, on, y, wait, place, strobe, tolerance, longest, releases)
 
 @kernel
 def depth_of(depth, half, phase, x, v):
-    """Return `ReleaseSet.depth` at a phase index, Z1 = x and Z1' = v, or -infinity off its grid."""
+    """Return the depth of Z1 = x, Z1' = v in a `ReleaseSet`, or -infinity outside its grid."""
     if not (abs(x) <= half[0] and abs(v) <= half[1]):
         return -math.inf
     cells = depth.shape[1]
@@ -136,12 +136,12 @@ def depth_of(depth, half, phase, x, v):
 def hold(on, y, side, begin, limit, rule, draw, depth, half, tolerance, path, work):
     """Run a motion with the damper on, from the time `begin` until a rule ends the run.
 
-    `rule` is (kind, n, k). A HOLD run ends after n forcing cycles. A PHASE run ends after n cycles,
-    when W T next is 2 pi k/PHASES. A STATE run ends when the state is in the release set, or after
-    n cycles. A SETTLED run ends after the strobe states repeat, at the fraction `draw` of the next
-    period. A row of `path` (m, 5) is a strobe: forcing cycles since `begin`, and the state.
-    Return the last time, whether the rule ended the run within `limit` cycles, and the number of
-    contacts begun.
+    `rule` is (kind, n, k). A run of the kind HOLD ends after n forcing cycles. A run of the kind
+    PHASE ends after n cycles, when W T next is 2 pi k/PHASES. A run of the kind STATE ends when the
+    state is in the release set, or after n cycles. A run of the kind SETTLED ends after the strobe
+    states repeat, at the fraction `draw` of the next period. Each strobe gives a row of `path`
+    (m, 5): forcing cycles since `begin`, and the state. Return the last time, whether the rule
+    ended the run within `limit` cycles, and the number of contacts begun.
     """
     kind, length, wanted = rule
     none, ring = np.empty((0, 4)), np.empty((RING, 4))

@@ -17,13 +17,13 @@ from impact_damper.motions.records import NEVER
 from impact_damper.motions.traces import states_at
 from impact_damper.theory.free_oscillator import main_solutions
 
-# Samples in `course`. MARGIN: forcing cycles before and after a run. SAMPLES: samples in a cycle.
+# `course` takes SAMPLES samples in a forcing cycle, also in MARGIN cycles before and after a run.
 MARGIN, SAMPLES = 10, 40
 # Two free motions are equal if their max |Z1| differ by less than this number.
 ALIKE = 1e-6
 # A log entry: the damper is switched on, then off. Times are forcing cycles from the first strobe.
 # released_period, released_displacement: period and max |Z1| of the motion before switching off.
-# destination, end_time: kind and end of the motion after switching off.
+# destination, end_time: kind of the motion after switching off, and time at which its run ends.
 SWITCHING = np.dtype(
     [(name, "f8") for name in ("on_time", "off_time", "end_time")]
     + [("released_period", "i2"), ("released_displacement", "f8"), ("destination", "i1")]
@@ -31,7 +31,7 @@ SWITCHING = np.dtype(
 
 
 class ReleaseCase(NamedTuple):
-    """Packed parameters with the damper on and off, and the free motions at one frequency.
+    """Packed parameters with the damper `on` and `off`, and two free motions at one frequency.
 
     `state` is the state of the resonance motion at the strobe. `known` holds max |Z1| of the
     non-resonance motion, then max |Z1| of the resonance motion.
@@ -129,11 +129,7 @@ def migrate(
 
 
 def _free_motion(oscillator, frequency, start, which, settling):
-    """Return the record of a free motion of period 1 at a frequency, or None.
-
-    A run at the frequency `start` finds the motion. The run begins on the solution of harmonic
-    balance with the index `which`. The motion is then followed to `frequency`.
-    """
+    """Find a free motion of period 1 at the frequency `start`; follow it to `frequency`, if found."""
     p = pack(oscillator, None, start)
     free = main_solutions(oscillator, start)
     angle = free.phase[which] + np.pi / 2
@@ -170,14 +166,14 @@ def release_case(oscillator, damper, frequency, settling) -> ReleaseCase:
 
 
 def kinds(period, displacement, known):
-    """Return the kinds of motions (flags of DAMPED_MOTION) from their periods and max |Z1|."""
+    """Return the kind of each motion, a flag of DAMPED_MOTION, from its period and max |Z1|."""
     one = np.where(displacement < known[1] / 2, DAMPED_MOTION["quiet"], DAMPED_MOTION["violent"])
     several = np.where(period > 1, DAMPED_MOTION["subharmonic"], one)
     return np.where(period == 0, DAMPED_MOTION["unsettled"], several)
 
 
 def destination(known, record):
-    """Return the kind of a free motion (a flag of FREE_MOTION) from its record."""
+    """Return the kind of a free motion, a flag of FREE_MOTION, from its record."""
     if not is_settled(record):
         return FREE_MOTION["unresolved"]
     if record["period"] == 3:
@@ -193,9 +189,9 @@ def control(case, draws, longest_hold, settling, periods, releases, stop=NEVER):
 
     A row of `draws` holds three random numbers from 0 to 1: the wait before switching on, the place
     of the loose mass (0: at one wall, 1: at the other wall), the wait before switching off. Waits
-    are in periods of the motion. `releases` is the `ReleaseSet`, or None to release after settling.
-    The path (m, 5) has a row for each strobe, switching on and switching off. A row holds the time,
-    in forcing cycles since the first strobe, and the state.
+    are in periods of the motion. `releases` is the `ReleaseSet`, or None to switch the damper off
+    after the motion has settled. The path (m, 5) has a row for each strobe, switching on and
+    switching off. A row holds the time, in forcing cycles since the first strobe, and the state.
     """
     y, period, strobe, path = case.state.copy(), 1, 0.0, []
     tolerance, limit = settling.tolerance, settling.limit
@@ -263,7 +259,7 @@ def switching_data(logs, case):
 
 
 def run_totals(logs):
-    """Return dataset variables of whole runs as a dict. A run begins at its first `on_time`."""
+    """Return a dict of dataset variables with one value for each run, such as its total time."""
     first = logs["on_time"][..., 0]
     reached = np.any(logs["destination"] == FREE_MOTION["non_resonance"], axis=-1)
     yes, no = (flag("trial_outcome", name) for name in ("reached", "not_reached"))

@@ -31,7 +31,7 @@ WEIGHTS = [0.0 if k % 2 else 2 / (1 - k**2) for k in range(len(NODES))] @ COEFFI
 # of a polynomial into the coefficients of its derivative.
 POINTS, NEWTON = np.linspace(-1, 1, 33), 5
 SLOPE = np.vstack([chebyshev.chebder(np.eye(len(NODES))), np.zeros(len(NODES))])
-# Largest phase, in radian, by which the fastest oscillation of a motion advances in one panel.
+# Largest phase, in radians, by which the fastest oscillation of a motion advances in one panel.
 LONGEST_ANGLE = 2.0
 # Largest number of contacts that are divided into panels at once, to save memory.
 PIECE = 100_000
@@ -80,7 +80,7 @@ def contact_forces(p, state, span, course, tolerance):
 
 
 def _divided(p, state, span, course, tolerance, flights):
-    """Return the panels in the contacts of a motion; if `flights`, also the panels in flights."""
+    """Return the panels of a motion: those in contacts, and if `flights` those in flights too."""
     (begin, end), (states, log) = span, course
     # Edges: `begin`, both ends of each contact, `end`. So flights and contacts alternate.
     ends = np.where(np.isfinite(log[:, 2]), log[:, 2], end)
@@ -137,13 +137,13 @@ def largest(values) -> float:
 
 
 def base_displacement(p, times):
-    """Return the base's displacement (A/W^2) cos(W T) for the forcing A cos(W T); 0 if fixed."""
+    """Return (A/W^2) cos(W T), the displacement of a moving base with the forcing A cos(W T)."""
     amplitude = forcing_amplitude.py_func(p) / p[FREQUENCY] ** 2
     return p[BASE] * amplitude * np.cos(p[FREQUENCY] * times)
 
 
 def penetration(p, states, wall):
-    """Return the depth of the loose mass in `wall` (-1 or 1) and the depth's rate; 0 in flight."""
+    """Return the depth of the loose mass in a wall (-1 or 1) and its rate. In flight both are 0."""
     return np.where(wall, wall * states[..., 2] - p[CLEARANCE], 0.0), wall * states[..., 3]
 
 

@@ -20,20 +20,18 @@ from impact_damper.model.packed import FREQUENCY
 from impact_damper.motions.strobe_map import STROBE, distance, speed_weight, strobe_time
 from impact_damper.motions.traces import record_beginning
 
-# A reference harmonic below this fraction of another harmonic is a rounding error, without phase.
+# A harmonic smaller than this fraction of another harmonic is a rounding error. It has no phase.
 PHASELESS = 1e-9
 # A motion is symmetric if its asymmetry is below this number.
 SYMMETRIC = 1e-6
-# Number of samples in a forcing cycle from which harmonics are computed.
+# Number of samples in a forcing cycle from which harmonics are computed, and cos, sin of W T there.
 SAMPLES = 64
-# Cosine and sine of the phases of these samples.
 COSINE, SINE = (f(STROBE + 2 * np.pi * np.arange(SAMPLES) / SAMPLES) for f in (np.cos, np.sin))
-# Number of windows of an envelope in one call of the kernel. Ctrl-C waits until the call ends.
+# `envelope` runs this number of windows in one call of a kernel. Ctrl-C waits until it ends.
 AT_ONCE = 1024
-# Argument `stop` of a run that other threads never stop.
+# The argument `stop` of a run that no other thread can stop.
 NEVER = np.zeros(1, bool)
 
-# Outcomes of a motion that is run until it settles.
 UNRESOLVED, SETTLED, CHAOTIC, DIVERGED, NON_COLLIDING = range(5)
 ESCAPED, AT_REST, QUASI_PERIODIC, DRIFTING = range(5, 9)
 # Fields of a record. A run fills the fields up to `state`, `measure` the fields after `state`.
@@ -55,13 +53,13 @@ MOTION = np.dtype(
 
 @kernel
 def survey(p, states, phases, times, tolerance, log, sums):
-    """Run a motion in m segments; record contacts, the largest |Z1| and first harmonics.
+    """Run a motion in m segments, one after the other; record contacts and first harmonics.
 
     `states` (m, 4) holds the first state of each segment; the segment's last state replaces it.
-    `phases` and `times` (m + 1,) are W T and T at the m + 1 ends of the segments, which follow each
-    other in time. `log` (n, 5) receives the first n contacts, in rows as in `traces.trace`. sums[0]
-    receives real and imaginary part of the first harmonic of Z1, the mean of 2 exp(-i W T) Z1.
-    sums[1] receives the first harmonic of Z2. Return the number of contacts and the largest |Z1|.
+    `phases` and `times` (m + 1,) hold W T and T at which segments begin and end. `log` (n, 5)
+    receives the first n contacts, in rows as in `traces.trace`. sums[0] receives the real and the
+    imaginary part of the first harmonic of Z1, which is the mean of 2 exp(-i W T) Z1. sums[1]
+    receives the first harmonic of Z2. Return the number of contacts and the largest |Z1|.
     """
     work, start = workspace(), np.empty(4)
     frequency, spacing = p[FREQUENCY], 2.0 * math.pi / SAMPLES
@@ -104,7 +102,7 @@ def survey(p, states, phases, times, tolerance, log, sums):
 
 @kernel_only
 def add_samples(c, order, moments, sample, count, sums):
-    """Add values v of the polynomial c at `count` times: v COSINE to sums[0], v SINE to sums[1]."""
+    """Add samples v of a polynomial to two sums: v COSINE to sums[0], and v SINE to sums[1]."""
     t0, t1, t2, t3 = moments
     v0 = v1 = v2 = v3 = c[order]
     for k in range(order - 1, -1, -1):
@@ -117,7 +115,7 @@ def add_samples(c, order, moments, sample, count, sums):
 
 @inlined
 def measure_orbit(p, periods, tolerance, out):
-    """Measure the orbit in the record `out` over its period of `periods` forcing cycles."""
+    """Measure an orbit over its period, `periods` forcing cycles; complete its record `out`."""
     halves = 1 + periods % 2
     state = out.state.copy()
     y = state.copy().reshape(1, 4)
@@ -143,12 +141,13 @@ def measure_orbit(p, periods, tolerance, out):
 
 @kernel
 def measure_orbits(parameters, tolerance, out, stop):
-    """Measure the orbits in `out`. A record without a `period` receives NaN and infinite max |Z1|.
+    """Measure the orbits with the records `out`; complete the records.
 
     An orbit is integrated over its period, from its state at the strobe. If the period is odd, the
     asymmetry is the distance between the mirrored first state and the state half a period later;
-    otherwise it is NaN. A harmonic is the complex number c in Re(c exp(i W T)). If another thread
-    sets `stop[0]`, the remaining records are not completed.
+    otherwise it is NaN. A harmonic is the complex number c in Re(c exp(i W T)). A record with the
+    period 0 receives infinite max |Z1|, and otherwise NaN. If another thread sets `stop[0]`, the
+    remaining records are not completed.
     """
     nothing = complex(np.nan, np.nan)
     for i in range(len(out)):
@@ -175,8 +174,8 @@ def follow_each(parameters, states, cycles, tolerance, contacts, largest):
 def measure(parameters, settling, out, stop, follow=follow_each):
     """Measure motions from their states at the strobe; complete their records `out`.
 
-    The kernel `follow` runs a motion without a period for `settling.watched` cycles. Its record
-    receives the largest |Z1| and the mean number of contacts in a cycle, and otherwise NaN.
+    The kernel `follow` runs a motion without a period for `settling.watched` cycles. The record
+    receives the largest |Z1| and the mean number of contacts in a cycle; other values are NaN.
     """
     measure_orbits(parameters, settling.tolerance, out, stop)
     watched = settling.watched
@@ -191,7 +190,7 @@ def measure(parameters, settling, out, stop, follow=follow_each):
 
 
 def measured(p, y, periods, tolerance):
-    """Measure an orbit over `periods` cycles from the state y; return a record without outcome."""
+    """Measure an orbit of a given period from its state y; return a record without outcome."""
     records = np.zeros(1, MOTION)
     records["state"], records["period"] = y, periods
     measure_orbits(p[None], tolerance, records, NEVER)
@@ -205,7 +204,7 @@ def is_symmetric_pair(motions):
 
 
 def phase_of(harmonic, reference):
-    """Return phases of harmonics relative to the harmonic `reference`, or NaN (see PHASELESS)."""
+    """Return the phase of each harmonic minus that of `reference`; NaN if `reference` is tiny."""
     phaseless = np.abs(reference) <= PHASELESS * np.abs(harmonic)
     return np.where(phaseless, np.nan, np.angle(harmonic * np.conj(reference)))
 
@@ -245,8 +244,8 @@ def envelope(parameters, lengths, y, tolerance):
 def run_window(p, y, side, length, largest, tolerance, work):
     """Run a motion from the strobe for a time `length`; the last state replaces y.
 
-    Return the wall in contact; the larger of max |Z1| and `largest`, or infinity after an escape;
-    and the number of contacts that begin.
+    Return three values: the wall in contact at the end; the larger of max |Z1| and `largest`, or
+    infinity after an escape; and the number of contacts that begin.
     """
     t, begun = strobe_time(p), 0
     end = t + length
@@ -262,7 +261,7 @@ def run_window(p, y, side, length, largest, tolerance, work):
 
 @kernel
 def run_windows(parameters, lengths, y, side, tolerance, largest, contacts):
-    """Run the windows of `envelope`, up to an escape; return the wall in contact at the end."""
+    """Run windows of `envelope`, until an escape at most; return the wall in contact at the end."""
     work = workspace()
     for k in range(len(lengths)):
         side, largest[k], begun = run_window(

@@ -23,9 +23,9 @@ from impact_damper.motions.steady import run_chunks
 from impact_damper.motions.sweep import sweep
 from impact_damper.motions.watch import NEAR
 
-# Runs that measure lives. APART: largest random change of Z1 and of Z1' in the first state of a
-# run. CAPTURE: distance from an orbit at which a transient ends. CHECKED: number of forcing cycles
-# by which a run that has not ended is continued, to see whether the motion is still chaotic.
+# APART: largest random change of Z1 and of Z1' in the first state of a run that measures a life.
+# CAPTURE: distance from an orbit at which a transient counts as ended.
+# CHECKED: forcing cycles for which a run without an end is continued: is it still chaotic?
 APART, CAPTURE, CHECKED = 1e-4, 0.1, 300
 
 

@@ -119,7 +119,6 @@ def simulate(
 
 
 def _absolute(p, times, states, log):
-    """Return the absolute displacement and acceleration of a primary mass on a moving base."""
     x, v = states[:, 0], states[:, 1]
     walls = np.zeros(len(times))
     last = np.searchsorted(log[:, 1], times, side="right") - 1

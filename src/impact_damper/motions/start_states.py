@@ -32,18 +32,19 @@ PHASES, SAMPLES, MOST_STATES = 6, 256, 5
 # Random starts. SPREAD: size of the largest start divided by the size of the largest free motion.
 # SMALLEST: size of the smallest start divided by the size of the largest start.
 SPREAD, SMALLEST = 3.0, 0.01
-# Placed starts. PLACES: Z2 divided by the clearance. VELOCITIES: Z2' divided by `_crossing_speed`,
-# or, for starts on free motions, by the largest |Z1'| of free motions if this |Z1'| is larger.
+# Placed starts. PLACES: Z2 divided by the clearance. VELOCITIES: Z2' divided by `_crossing_speed`.
+# For starts on free motions, Z2' is divided by their largest |Z1'| if that is larger.
 PLACES, VELOCITIES = (-2 / 3, 0.0, 2 / 3), (-1.0, 0.0, 1.0)
-# LOOSE_STATES: number of random states of the loose mass for `sweep.stable_orbits`. LOOSE_SPEED:
-# its largest speed, divided by `_crossing_speed`, or by the largest free |Z1'| if that is larger.
+# `sweep.stable_orbits` takes LOOSE_STATES random states of the loose mass. LOOSE_SPEED: largest
+# speed in them, divided by the larger of `_crossing_speed` and the largest |Z1'| of free motions.
 LOOSE_STATES, LOOSE_SPEED = 240, 2.0
-# With a softening spring: bound on |Z1| and |Z1'| of random starts, divided by `barrier`.
+# With a softening spring, |Z1| and |Z1'| of random starts are at most WITHIN times `barrier`.
 WITHIN = 0.7
 NO_STARTS, NO_LOOSE = np.empty((0, 4)), np.empty((0, 2))
 # Ramps. STEP: relative change of the parameter in a step. PERIODS: forcing cycles in a step.
-# RAISED: first force divided by last force. A ramp upward to W begins at BELOW times the lowest of
-# W/2 and the folds, a ramp downward at the highest of 2 W and the folds, divided by BELOW.
+# RAISED: first force divided by last force. BELOW: an upward ramp to W begins at BELOW times the
+# lowest of W/2 and the frequencies of folds; a downward ramp begins at the highest of 2 W and the
+# frequencies of folds, divided by BELOW.
 STEP, PERIODS, BELOW, RAISED = 0.0125, 20, 0.9, 5.0
 
 
@@ -131,7 +132,7 @@ def warn_if_narrow(oscillator, frequencies, radius) -> None:
 
 
 def gap_states(count, radius, damper, seed):
-    """Return random states (count, 4): Z1, Z1' in a disk; with a damper, Z2 in the gap, Z2' = 0."""
+    """Return random states: (Z1, Z1') in a disk, and the loose mass at relative rest in its gap."""
     states = radius * random_states(count, 1.0, None, seed)
     if damper is not None:
         generator = np.random.default_rng(np.append(seed, count))
@@ -141,7 +142,7 @@ def gap_states(count, radius, damper, seed):
 
 
 def wide_starts(oscillator, damper, frequency, count, seed, settling) -> tuple:
-    """Return the entries of one system in the fields of `Search`, in order, without a radius."""
+    """Return one system's starts, drawn without a radius, and sizes: its entries in a `Search`."""
     free = free_motions(oscillator, frequency, settling)
     states, most = random_starts(oscillator, damper, frequency, count, seed, settling)
     if damper is None:
@@ -156,7 +157,7 @@ def wide_starts(oscillator, damper, frequency, count, seed, settling) -> tuple:
 
 
 def random_starts(oscillator, damper, frequency, count, seed, settling) -> tuple:
-    """Return random starts (count, 4), scaled by free motions, and the bounds of |Z1| and |Z1'|."""
+    """Return random starts (count, 4), and the bounds on |Z1| and |Z1'| of the starts."""
     generator = np.random.default_rng(seed)
     free = free_motions(oscillator, frequency, settling)
     crossing = 0.0 if damper is None else _crossing_speed(damper, frequency)
@@ -205,7 +206,7 @@ def _placed(oscillator, damper, frequency, free, crossing, tolerance):
 
 
 def ramped(oscillator, damper, frequency, tolerance) -> list:
-    """Return the states at T = 0 after slow ramps of a parameter. Escaped motions are left out."""
+    """Return states at T = 0 after ramps of frequency or force. Escaped motions are left out."""
     folds = [fold.frequency for fold in free_folds(oscillator)] or [frequency]
     lowest = max(BELOW * min(frequency / 2, *folds), FREQUENCY_RANGE["least"])
     highest = min(max(2 * frequency, *folds) / BELOW, FREQUENCY_RANGE["most"])
@@ -216,7 +217,7 @@ def ramped(oscillator, damper, frequency, tolerance) -> list:
 
 
 def _ramp(target, indices, factor, tolerance):
-    """Change the parameters at `indices` slowly from `factor` x `target`; return the last state."""
+    """Change some parameters slowly from `factor` times their `target`; return the last state."""
     p, state, none = target.copy(), np.zeros(4), np.empty((0, 4))
     for exponent in np.linspace(1, 0, 2 + math.ceil(abs(math.log(factor)) / STEP)):
         p[indices] = target[indices] * factor**exponent
@@ -229,13 +230,16 @@ def _ramp(target, indices, factor, tolerance):
 
 
 def barrier(oscillator):
-    """Return |Z1| beyond which a softening spring pushes outward; |Z1'| at Z1 = 0 to get there."""
+    """Return |Z1| at the barrier of a softening spring, and |Z1'| at Z1 = 0 needed to reach it."""
     stiffness, softening = oscillator.linear_frequency**2, -oscillator.cubic
     return math.sqrt(stiffness / softening), stiffness / math.sqrt(2 * softening)
 
 
 class FreeMotions(NamedTuple):
-    """States (Z1, Z1') of free motions at W T = 0 (k, 2); max |Z1| and max |Z1'| over all times."""
+    """States of free motions at W T = 0, rows (Z1, Z1'), and the largest |Z1| and |Z1'| of all.
+
+    The largest values are taken over the whole of each motion.
+    """
 
     states: np.ndarray
     displacement: float
@@ -246,7 +250,8 @@ class FreeMotions(NamedTuple):
 def free_motions(oscillator, frequency, settling) -> FreeMotions:
     """Find the free motions at one frequency W, by runs from rest and from harmonic balance.
 
-    Near a fold harmonic balance can miss motions. So runs also start at the resonance peak's size.
+    Near a fold harmonic balance can miss motions. So runs also start with the amplitude of the
+    resonance peak.
     """
     p = pack(oscillator, None, frequency)
     angles = 2 * np.pi * np.arange(PHASES) / PHASES

@@ -14,7 +14,6 @@ from impact_damper.kernel.single import assign, side_of, workspace
 from impact_damper.kernel.tangents import advance
 from impact_damper.model.packed import CONTACT_STIFFNESS, FREQUENCY, INVERSE_MASS_RATIO
 
-# Phase W T of the strobe.
 STROBE = math.pi / 2
 # Newton's method. ITERATIONS: largest number of corrections. It has converged if a correction is
 # below CONVERGED. It fails if the determinant of its linear system is below REGULAR.
@@ -27,13 +26,13 @@ SAME_STATE = 1e-4
 
 @kernel
 def strobe_time(p):
-    """Return the first time T at the strobe, W T = pi/2."""
+    """Return the time T of the first strobe, at which W T = pi/2."""
     return 0.5 * math.pi / p[FREQUENCY]
 
 
 @inlined
 def one_period(p, y, tangents, side, tolerance, work):
-    """Integrate y from one strobe to the next, in place; return what `advance` returns."""
+    """Integrate y and its tangents from a strobe to the next; return the results of `advance`."""
     t = strobe_time(p)
     return advance(p, y, tangents, side, t, t + 2.0 * math.pi / p[FREQUENCY], tolerance, work)
 
@@ -51,14 +50,14 @@ def speed_weight(p, side):
 
 @kernel
 def distance(a, b, weight):
-    """Return the largest component of |a - b|, with the Z2' component multiplied by `weight`."""
+    """Return the distance between states a and b: max |a - b|, with `weight` |a - b| in Z2'."""
     d = max(abs(a[0] - b[0]), abs(a[1] - b[1]))
     return max(d, max(abs(a[2] - b[2]), weight * abs(a[3] - b[3])))
 
 
 @kernel
 def flow(p, state, tangents, begin, periods, half, tolerance):
-    """Integrate over `periods` forcing cycles from `begin`, and half a cycle more if `half`.
+    """Integrate over `periods` forcing cycles from the time `begin`; half a cycle more if `half`.
 
     Change the state (4,) and the tangents (n, 4) in place, because numba loses a Ctrl-C in kernels
     that return arrays. Return the number of contacts begun and the time in contact.
@@ -78,7 +77,7 @@ def flow(p, state, tangents, begin, periods, half, tolerance):
 
 @inlined
 def period_map(p, y, periods, tolerance):
-    """Return the state z, `periods` cycles after the state y; dz/dy; and the number of contacts."""
+    """Return the state z that follows y after `periods` cycles, dz/dy, and the contacts begun."""
     half = np.bool_(False)  # for the literal False numba would compile `flow` again
     state, tangents, matrix = y.copy(), np.empty((4, 4)), np.empty((4, 4))
     for i in range(16):
@@ -91,7 +90,7 @@ def period_map(p, y, periods, tolerance):
 
 @kernel
 def solve(matrix, right):
-    """Solve a small linear system in place by elimination with pivoting; return the determinant."""
+    """Solve a small linear system. The solution replaces `right`. Return the determinant."""
     size = len(right)
     determinant = 1.0
     for k in range(size):

@@ -22,14 +22,14 @@ from impact_damper.motions.records import MOTION, measured, tabulate
 from impact_damper.motions.steady import run_chunks
 from impact_damper.motions.strobe_map import STROBE, distance, flow, polish, strobe_time
 
-# Two records show one motion if max |Z1| differs by less than SAME max |Z1| or less than ROUNDING.
-# Two unsettled records also show one motion if `size_ratio` is below SIMILAR. A motion is symmetric
-# if its asymmetry is below SAME.
+# Two records show the same motion if max |Z1| differs by less than SAME max |Z1|, or less than
+# ROUNDING. Two unsettled records also show the same motion if the ratio of their sizes is below
+# SIMILAR. A motion is symmetric if its asymmetry is below SAME.
 SAME, ROUNDING, SIMILAR = 1e-6, 1e-11, 1.5
 # Outcomes with infinite or zero max |Z1|. All motions with one such outcome count as one motion.
 ALIKE = tuple(flag("outcome", name) for name in ("diverged", "escaped", "at_rest"))
-# Newton's method for further orbits. LONGEST: longest period in cycles. REACH: bound on the change
-# from start to orbit, divided by the largest of the clearance and |Z1|, |Z1'| of known motions.
+# Search for orbits by Newton's method. LONGEST: longest period in cycles. REACH: largest change of
+# a start, divided by the largest of the clearance and of |Z1| and |Z1'| of known motions.
 # SAME_ORBIT: two orbits are equal if their states differ by less than this number.
 LONGEST, REACH, SAME_ORBIT = 5, 1.0, 1e-6
 # Events at the end of a branch. At a bifurcation the modulus of the multiplier is above CRITICAL. A
@@ -90,10 +90,7 @@ def reached(data):
 
 
 def _follow(source, target, index, settling, links, ends):
-    """Follow all motions of the catalogue `source` to the next value; add the results to `target`.
-
-    `links` receives pairs of serial numbers of motions on one branch, `ends` the branches' ends.
-    """
+    """Follow all motions of the catalogue `source` to the next value; add results to `target`."""
     followed = [
         follow_stable(source.p, record["state"], record["period"], index, target.p[index])
         if is_settled(record)
@@ -126,10 +123,7 @@ def _follow(source, target, index, settling, links, ends):
 
 
 def _end_event(record, multiplier, beyond):
-    """Return the name of the event at which the branch with the motion `record` ends.
-
-    `multiplier` belongs to the branch's last orbit. `beyond` is the motion at the next value.
-    """
+    """Return the event at which a branch ends. `beyond` is the motion to which its end leads."""
     if not abs(multiplier) >= CRITICAL:
         return "not_smooth"
     if abs(multiplier.imag) > COMPLEX:
@@ -144,7 +138,7 @@ def _end_event(record, multiplier, beyond):
 
 
 def _branches(catalogues, links):
-    """Return the branch index of each motion. `links` and `match_unsettled` pair its motions."""
+    """Return the branch index of each motion. `links` pairs settled motions on the same branch."""
     links = links + [
         (first.numbers[i], second.numbers[j])
         for first, second in pairwise(catalogues)
@@ -156,7 +150,7 @@ def _branches(catalogues, links):
 
 
 def _tables(catalogues, branches, dimension, starts):
-    """Return variables (dimension, motion). The motions are sorted by descending max |Z1|."""
+    """Return a table of the motions at each value, sorted by descending max |Z1|, as a dict."""
     width = max(len(catalogue.records) for catalogue in catalogues)
     records = np.zeros((len(catalogues), width), MOTION)
     records["outcome"] = flag("outcome", "absent")
@@ -214,7 +208,7 @@ class Catalogue:
         return None
 
     def add(self, record, origin):
-        """Add a new motion, or update a known one that has a smaller max |Z1|; return the index."""
+        """Add a motion. Keep the larger max |Z1| if it is known. Return the index of the motion."""
         i = self.find(record)
         if i is None:
             i = len(self.records)
@@ -233,7 +227,7 @@ class Catalogue:
 
 
 def match_unsettled(first, second) -> list:
-    """Pair unsettled motions at neighbouring values that have similar sizes, the closest first."""
+    """Return pairs (i, j) of unsettled motions first[i] and second[j] that have similar sizes."""
     pairs = sorted(
         (ratio, i, j)
         for i, one in enumerate(first)
@@ -251,9 +245,10 @@ def match_unsettled(first, second) -> list:
 
 
 def size_ratio(one, other):
-    """Return the larger of two motions' max |Z1| divided by the smaller.
+    """Return the larger max |Z1| of two motions divided by the smaller.
 
-    Without a period max |Z1| may be small by chance. So the ratio of `reach` is used if smaller.
+    Without a period max |Z1| may be small by chance. If the ratio of the fields `reach` is smaller,
+    return that ratio.
     """
     if one["maximum_displacement"] == other["maximum_displacement"]:
         return 1.0
@@ -266,7 +261,7 @@ def size_ratio(one, other):
 
 
 def add_orbits(catalogues, loose, settling, workers) -> None:
-    """Add to catalogue k the orbits that `stable_orbits` finds from the array `loose[k]`."""
+    """Add orbits to each catalogue k. `loose[k]` has states of the loose mass for the search."""
     found, stop = [np.empty((0, 4))] * len(catalogues), np.zeros(1, bool)
 
     def work(part):

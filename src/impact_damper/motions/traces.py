@@ -6,15 +6,16 @@ from impact_damper.kernel.compiling import kernel, kernel_only
 from impact_damper.kernel.equation import has_escaped
 from impact_damper.kernel.single import LENGTH, assign, side_of, state_in_step, step, workspace
 
-# STEPS_AT_ONCE: steps in one call of the kernel. ROWS: rows of the log, to which more are added as
-# needed. To allocate many rows at the beginning would take longer than a short motion.
+# STEPS_AT_ONCE: largest number of steps in one call of the kernel. Ctrl-C waits until it ends.
+# ROWS: rows of the log at first. More are added when they are full.
 STEPS_AT_ONCE, ROWS = 50_000, 64
 
 
 def trace(p, state, begin, times, tolerance):
-    """Return the states at increasing times, shape (n, 4), and the contacts, shape (k, 5).
+    """Return a motion's states at increasing times, shape (n, 4), and contacts, shape (k, 5).
 
-    A contact's row: wall, begin, end, Z2' at begin, Z2' at end. States after an escape are NaN.
+    The row of a contact holds the wall (-1 or 1), the times at which the contact begins and ends,
+    and Z2' at these times. States after an escape are NaN.
     """
     y, t, times = np.array(state, float), float(begin), np.ascontiguousarray(times, float)
     states, log = np.empty((len(times), 4)), np.empty((ROWS, 5))
@@ -39,7 +40,7 @@ def states_at(p, state, begin, times, tolerance):
 
 @kernel
 def trace_steps(p, y, t, side, sample, contacts, times, tolerance, states, log):
-    """Do at most STEPS_AT_ONCE steps of `trace`, because Ctrl-C waits for a kernel to end."""
+    """Do at most STEPS_AT_ONCE steps; write samples into `states`, and contacts into `log`."""
     work = workspace()
     start = y.copy()
     for _ in range(STEPS_AT_ONCE):
@@ -68,7 +69,7 @@ def trace_steps(p, y, t, side, sample, contacts, times, tolerance, states, log):
 
 @kernel_only
 def record_beginning(log, contacts, side, t, speed):
-    """Log the beginning of a contact if a row is left; return the new number of contacts."""
+    """Write the beginning of a contact into `log` if a row is left; return the new row number."""
     if contacts < len(log):
         log[contacts, 0], log[contacts, 1], log[contacts, 2] = side, t, np.nan
         log[contacts, 3], log[contacts, 4] = speed, np.nan

@@ -159,9 +159,8 @@ def is_linear(p, y, ring, k, n, weight):
 
     y is a state of the orbit, n its period. In a period a difference e from the orbit becomes
     M e + r, with a matrix M and |r| <= c |e|^2. The number c is measured in the last two periods.
-    c times the sum of |e| over at most APPROACH further periods must not exceed NONLINEAR. Of
-    7 000 motions that passed this test none left its orbit later. So at most 0.05 % of such motions
-    do (95 % confidence).
+    c times the sum of |e| over at most APPROACH further periods must not exceed NONLINEAR. Of 7 000
+    motions that passed this test none left its orbit, so at most 0.05 % do (95 % confidence).
     """
     _, matrix, contacts = period_map(p, y, n, POLISH_TOLERANCE)
     # A loose mass that has touched no wall in the period, but drifts, may touch one later.

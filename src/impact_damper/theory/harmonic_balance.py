@@ -24,12 +24,12 @@ from impact_damper.theory.single_harmonic import (
     stability,
 )
 
-# Neighbours on a branch differ by less than JUMP times the largest component of all solutions.
+# Neighbouring solutions on a branch differ by less than JUMP times the largest component of all.
 JUMP = 0.25
 
 
 def branches_over(rows) -> list[np.ndarray]:
-    """Return the index of the branch of each solution, as an array for each row of solutions.
+    """Return for each row of solutions an array with the index of each solution's branch.
 
     A row holds the solutions at one value of a parameter. Two solutions of consecutive rows are on
     one branch if each is the nearest to the other, and their distance is small (see JUMP).
@@ -108,7 +108,7 @@ def harmonic_balance(system, damper, frequencies):
 
 
 def _table(columns, rows, fill=np.nan):
-    """Return rows of unequal length as one array. `columns` gives the column for each value."""
+    """Return rows of unequal length as one array, with each value in the column that is given."""
     width = max((1 + row.max() for row in columns if len(row)), default=1)
     table = np.full((len(rows), width), fill)
     for target, place, row in zip(table, columns, rows, strict=True):
@@ -117,7 +117,6 @@ def _table(columns, rows, fill=np.nan):
 
 
 def _free_table(oscillator, frequencies):
-    """Return the variables of the solutions without a damper."""
     free = [free_solutions(oscillator, frequency) for frequency in frequencies]
     points = [fixed_points(each) for each in free]
     signs = [
@@ -133,7 +132,6 @@ def _free_table(oscillator, frequencies):
 
 
 def _solution_table(oscillator, damper, frequencies):
-    """Return the variables of the solutions of (7), and of motions with the loose mass at rest."""
     impacting, status = [], []
     for frequency in frequencies:
         try:
@@ -171,7 +169,6 @@ def _solution_table(oscillator, damper, frequencies):
 
 
 def _rigid_table(oscillator, damper, frequencies):
-    """Return the variables of the roots of (14)."""
     rigid = [rigid_solutions(oscillator, damper, each) for each in frequencies]
     pulls, pushes = (flag("rigid_wall", name) for name in ("pulls", "pushes"))
     walls = [np.where(each.amplitude > damper.clearance, pulls, pushes) for each in rigid]
@@ -191,7 +188,7 @@ SIZES = ("band_width", "peak_frequency", "peak_amplitude", "quiet_amplitude", "r
 
 
 def _band(oscillator, damper):
-    """Return the variables of the suppression band, which is searched in steps of SEARCH_STEP."""
+    """Search for the suppression band; return its dataset variables as a dict."""
     data = dict.fromkeys(SIZES, np.nan) | {
         "band_status": flag("band_status", "no_peak"),
         "edge_frequency": [np.nan] * 2,
@@ -222,7 +219,7 @@ def _band(oscillator, damper):
 
 
 def _look(oscillator, damper, frequency):
-    """Return the name of the `band_status` at one frequency, and |a| of all stable solutions."""
+    """Return the `band_status` at one frequency, and |a| of all stable solutions of (7)."""
     stable = np.sort(np.abs(_stable_amplitudes(oscillator, damper, frequency)))
     free = resonance(oscillator, frequency)
     if len(stable) != 1:
@@ -232,7 +229,7 @@ def _look(oscillator, damper, frequency):
 
 
 def _edge(inside, peak, limit):
-    """Search for the edge of the band from W = peak to W = limit * peak. Return NaN if none."""
+    """Search for an edge of the band between W = peak and W = limit * peak. NaN: there is none."""
     step = np.sign(limit - 1) * SEARCH_STEP * peak
     inner = peak
     for outer in np.arange(peak + step, limit * peak, step):
@@ -248,7 +245,6 @@ def _edge(inside, peak, limit):
 
 
 def _stable_amplitudes(oscillator, damper, frequency):
-    """Return the amplitudes a of the stable solutions of (7) at one frequency."""
     solutions = impacting_solutions(oscillator, damper, frequency)
     growth = growth_rate(fixed_points(solutions), oscillator, damper, frequency)
     return solutions.amplitude[stability(growth) == flag("stability", "stable")]
@@ -259,7 +255,7 @@ ZERO_AMPLITUDE = 1e-6
 
 
 def _smallest(oscillator, damper, frequency):
-    """Return the stable amplitude of (7) closest to 0, or NaN; the name of `analytical_status`."""
+    """Return the stable amplitude a of (7) closest to 0 (or NaN), and the `analytical_status`."""
     if damper.restitution != 1:
         return np.nan, "inelastic"
     if beyond_closed_forms(oscillator, damper):
@@ -272,7 +268,7 @@ def _smallest(oscillator, damper, frequency):
 
 
 def analytical_table(oscillator, dampers, frequency):
-    """Return the smallest stable |a| by (7) for each damper, and the clearance at which a = 0."""
+    """Return a dict: the smallest stable |a| by (7) for each damper; the clearance where a = 0."""
     found = [_smallest(oscillator, each, frequency) for each in dampers]
     signed, status = np.array([size for size, _ in found]), [name for _, name in found]
     best = np.nan

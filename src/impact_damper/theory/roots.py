@@ -12,7 +12,7 @@ EPSILON = np.finfo(float).eps
 # A function counts as 0 if it is at most ROUNDING times the sum of its terms' absolute values.
 ROUNDING = 16 * EPSILON
 LARGEST_DEGREE = 512
-# An interval is halved if this sum varies within it by more than the factor LARGEST_RANGE.
+# An interval is halved if the sum of the terms' absolute values varies within it by this factor.
 LARGEST_RANGE = 1e6
 
 
@@ -34,7 +34,7 @@ def polynomial_roots(coefficients) -> np.ndarray:
 def smooth_roots(function, size, lower, upper) -> np.ndarray:
     """Return the real roots of an analytic function in [lower, upper], each listed once.
 
-    The rounding error at x is at most EPSILON * size(x). Extrema come from a Chebyshev polynomial
+    The rounding error at x is at most EPSILON * size(x). A Chebyshev polynomial gives the extrema
     (Trefethen, Approximation Theory and Approximation Practice, 2013, chapter 18).
     """
     sizes = size(np.linspace(lower, upper, 17))
@@ -55,7 +55,7 @@ def smooth_roots(function, size, lower, upper) -> np.ndarray:
 
 
 def _between(function, size, extrema, lower, upper):
-    """Return the roots of `function` in [lower, upper], given all its extrema."""
+    """Return the roots of `function` in [lower, upper]. `extrema` holds all its extrema there."""
     points = np.unique(np.clip(np.concatenate([[lower, upper], np.real(extrema)]), lower, upper))
     values = function(points)
     if not np.isfinite(values).all():

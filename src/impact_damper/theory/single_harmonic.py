@@ -40,8 +40,8 @@ def contact_amplitude(relative_amplitude, clearance) -> tuple:
 def rigid_solutions(oscillator, damper, frequency) -> Solutions:
     """Return the solutions of (13), by ascending phase t1. They have b = d0.
 
-    Solutions with a > d0 need walls that pull; (7) has no such solution. For a forcing amplitude f
-    other than 1, the equations hold with d0/f, k3 f^2 and a/f in place of d0, k3 and a.
+    A solution with a > d0 needs walls that pull. Equation (7) has no such solution. For a forcing
+    amplitude f other than 1, (13) holds with d0/f, k3 f^2 and a/f in place of d0, k3 and a.
     """
     check_elastic(oscillator, damper)
     frequency = check_frequency(frequency)
@@ -82,7 +82,7 @@ def impacting_solutions(oscillator, damper, frequency) -> Solutions:
 
 
 def resting_solutions(oscillator, damper, frequency) -> Solutions:
-    """Return the free solutions with a < d0, in which the loose mass can rest, so that Z2 = Z1."""
+    """Return free solutions with a < d0. The loose mass can rest in them, and then Z2 = Z1."""
     check_closed_form(oscillator, damper)
     free = free_solutions(oscillator, frequency)
     inside = free.amplitude < damper.clearance
@@ -90,7 +90,7 @@ def resting_solutions(oscillator, damper, frequency) -> Solutions:
 
 
 class _Balance:
-    """Terms of (7) as functions of the contact angle p. Factors of cos(p) remove their poles."""
+    """Terms of (7) as functions of the contact angle p, with factors cos(p) that remove poles."""
 
     def __init__(self, oscillator, damper, frequency):
         self.clearance = damper.clearance
@@ -120,7 +120,7 @@ class _Balance:
         return inline**2 + quadrature**2 - self.force**2 * cosine**6
 
     def defect_size(self, angle):
-        """Return a bound on the rounding error of `defect`, in units of the machine epsilon."""
+        """Return a bound on the rounding error of `defect`, divided by the machine epsilon."""
         cosine, scaled, inline, quadrature = self.terms(angle)
         square = cosine**2
         error = 2 * self.clearance - scaled

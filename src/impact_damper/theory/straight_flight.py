@@ -1,4 +1,4 @@
-"""Closed forms for the optimum clearance. The loose mass flies at constant velocity.
+"""The optimum clearance in closed form, for a loose mass at constant speed from wall to wall.
 
 Lengths are divided by f/W^2 with the forcing amplitude f. Clearances are given as rm W^2 d0/f.
 """
@@ -13,10 +13,10 @@ from impact_damper.model.bounds import check_number
 from impact_damper.model.exit_rules import damping_ratio
 from impact_damper.model.parameters import check_closed_form
 
-# The search for the smallest max |x| tries this number of values of q, then refines the best.
+# The search for the smallest max |x| tries this number of impulses, then refines the best.
 GRID = 65
 NEWTON_STEPS = 3
-# Shift of the two characteristic roots if they are equal, to avoid a division by 0.
+# Shift of two equal roots in `Flight._difference`, to avoid a division by 0.
 APART = 1e-20j
 
 
@@ -47,7 +47,7 @@ class Flight(NamedTuple):
 
     @property
     def loss(self):
-        """sin(s)/q of an impact at rigid walls, with the lag s and `impulse` q."""
+        """The ratio sin(s)/q for impacts at rigid walls, with the lag s and the `impulse` q."""
         impact = (1 + 1 / self.mass_ratio) * (1 - self.restitution) / (1 + self.restitution)
         damping = self._difference(lambda root: root * np.tanh(np.pi * root / 2))
         return 2 / np.pi * (impact - damping) / self.forced
@@ -59,7 +59,7 @@ class Flight(NamedTuple):
 
     @property
     def reach(self):
-        """Decrease of rm W^2 d0/f because contacts take time, divided by (1 + rm) q."""
+        """Decrease of the clearance, as rm W^2 d0/f, because contacts take time; per (1 + rm) q."""
         return 4 / np.pi * self.contact_phase * self.restitution / (1 + self.restitution) ** 2
 
     @property
@@ -139,7 +139,7 @@ def flight_of(oscillator, damper, frequency) -> Flight:
 
 @cache
 def least_displacement_ratio(flight) -> float:
-    """Return the best clearance, as rm W^2 d0/f: max |Z1| is smallest there."""
+    """Return the clearance at which max |Z1| is smallest, as rm W^2 d0/f."""
     impulses = np.linspace(0, flight.largest_impulse, GRID + 2)[1:-1]
     best = int(np.argmin(flight.largest_displacement(impulses)))
     bounds = impulses[max(best - 1, 0)], impulses[min(best + 1, GRID - 1)]
