@@ -129,7 +129,7 @@ def migrate(
 
 
 def _free_motion(oscillator, frequency, start, which, settling):
-    """Find a free motion of period 1 at the frequency `start`; follow it to `frequency`, if found."""
+    """Find a free motion of period 1 at the frequency `start`, then follow it to `frequency`."""
     p = pack(oscillator, None, start)
     free = main_solutions(oscillator, start)
     angle = free.phase[which] + np.pi / 2
