@@ -27,7 +27,7 @@ flight_step, contact_step = by_address(_MANY.flight_step), by_address(_MANY.cont
 flight_tangents = by_address(_MANY.flight_tangents)
 contact_tangents = by_address(_MANY.contact_tangents)
 SIZE, TANGENT_SIZE = _MANY.SIZE, _MANY.TANGENT_SIZE
-# Indices of rows (`instances.rows`). `Pool.numbers[m, k]`: number in row k, of trajectory m.
+# Indices of rows (`instances.rows`). `Pool.numbers[m, k]` is the number of trajectory m in row k.
 STATE, SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
     row // LANES
     for row in (_MANY.Y0, _MANY.SIDE, _MANY.TIME, _MANY.LONGEST, _MANY.TOLERANCE, _MANY.LENGTH)
@@ -37,7 +37,7 @@ STATE, SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
 class Pool(NamedTuple):
     """A pool of n trajectories. Each trajectory has its own end time.
 
-    numbers: Parameters, state, ..., tolerance, in the rows before LENGTH; shape (n, LENGTH).
+    numbers: Parameters, states and arguments of a step (`instances.rows`); shape (n, LENGTH).
     ends: End times; shape (n,).
     farthest: |Z1| beyond which a trajectory escapes (`equation.no_return`); shape (n,).
     tangents: A solution of the variational equations for each trajectory; shape (n, 4).
@@ -46,7 +46,7 @@ class Pool(NamedTuple):
     contacts: Number of contacts begun since the last call of `send`; shape (n,).
     largest: Largest |Z1| since the last call of `enter`, NaN if not needed; shape (n,).
     held: Index of the trajectory whose parameters a lane holds, -1 if none; shape (LANES,).
-    a, d: Arrays of a step, for trajectories (a) and their tangents (d): `instances.rows`.
+    a, d: Arrays of one step of LANES trajectories (a) and their tangents (d).
     """
 
     numbers: np.ndarray
@@ -99,7 +99,7 @@ def enter(pool, m, p, y, side, tolerance):
 
 @kernel
 def send(pool, m, t, end, with_tangent):
-    """Queue trajectory m for integration from time t to time `end`."""
+    """Put trajectory m into a queue, to be integrated from time t to time `end`."""
     pool.numbers[m, TIME] = t
     pool.ends[m] = end
     pool.contacts[m] = 0
@@ -118,8 +118,8 @@ def enqueue(queues, waiting, m, kind):
 def choose(pool, chosen):
     """Take up to LANES trajectories from the longest queue.
 
-    Return how many trajectories were taken, and their kind of step. `chosen` receives an index for
-    each lane. If fewer than LANES trajectories were taken, the last index fills the other lanes.
+    Return how many trajectories were taken, and their kind of step. `chosen` receives the index of
+    a trajectory for each lane. The last index is repeated if there are fewer than LANES.
     """
     waiting = pool.waiting
     kind = FLIGHT
@@ -188,7 +188,7 @@ def scatter(pool, chosen, count, kind, arrived):
 
 @kernel_only
 def raise_largest(pool, chosen, count, order):
-    """Raise `pool.largest` of chosen trajectories if |Z1| was larger in the last step."""
+    """Update `pool.largest`, the largest |Z1| of a trajectory, for the chosen ones after a step."""
     series = np.empty(max(FLIGHT_ORDER, CONTACT_ORDER) + 1)
     for lane in range(count):
         m = chosen[lane]

@@ -40,7 +40,6 @@ INTRINSICS = {math.sqrt: "sqrt", math.sin: "sin", math.cos: "cos", np.floor: "fl
 
 @cache
 def _definitions(file):
-    """Return the syntax tree of each function in a file. Keys are line numbers in the file."""
     found = {}
     for node in ast.walk(ast.parse(Path(file).read_text())):
         if isinstance(node, ast.FunctionDef):
@@ -54,7 +53,7 @@ def definition(function):
 
 
 def bits(x):
-    """Return a float's bits as an integer. For x > 0 it is about 2^52 (1023 + log2(x))."""
+    """Return a float's bits as an integer. For x > 0 this is about 2^52 (1023 + log2(x))."""
     return int(np.float64(x).view(np.int64))
 
 
@@ -64,7 +63,7 @@ def number(x):
 
 
 def template(function, caller):
-    """Wrap a template for kernels. `caller` is for `by_address`, and only calls the wrapper."""
+    """Return a wrapper of a template that kernels can call. `caller` only calls the wrapper."""
 
     def generate(context, builder, signature, arguments):
         builder.call(_compiled(builder.module, function, arguments), arguments)
@@ -83,7 +82,6 @@ def template(function, caller):
 
 
 def _is_llvm(value):
-    """Return whether a value becomes known only when the compiled code runs (an LLVM value)."""
     return isinstance(value, ir.Value)
 
 
@@ -112,11 +110,11 @@ class Body(ast.NodeVisitor):
     def __init__(self, builder, function):
         self.builder, self.function = builder, function
         self.tree = definition(function)
-        # Names assigned once are in `values`, other names in `memory`, results in `returned`.
+        # `values` has the names that are assigned once, `memory` other names, `returned` results.
         self.values, self.memory, self.returned = {}, {}, []
 
     def expand(self, arguments):
-        """Write the body of the template with these arguments. Return the template's result."""
+        """Write the code of the template for given arguments. Return the value that it returns."""
         self.end = self.builder.append_basic_block()
         names = [each.arg for each in self.tree.args.args]
         nodes = [each for each in ast.walk(self.tree) if isinstance(each, ast.Name)]

@@ -30,7 +30,7 @@ from numba.extending import intrinsic
 
 from impact_damper.kernel.sources import kernel_digest
 
-# MESSAGE is printed when compilation has taken this time, in s.
+# Time of compilation (s) after which MESSAGE is printed.
 PATIENCE = 1.0
 MESSAGE = "impact_damper: compiling kernels; later sessions will load them from the cache"
 # Name of the event that `compiled` reports to numba's listeners while a kernel is compiled.
@@ -58,7 +58,7 @@ CACHE_DIRECTORY = cache_directory()
 
 @contextmanager
 def own_cache(function):
-    """Let numba cache `function` in the cache folder of the function's module."""
+    """Return a context in which numba caches `function` in the cache folder of its module."""
     path = Path(function.__code__.co_filename)
     generated = path.is_relative_to(CACHE_DIRECTORY)
     before = numba.config.CACHE_DIR
@@ -116,7 +116,7 @@ def signature_of(function):
 
 @cache
 def compiled(function):
-    """Return a kernel as a compiled C function. All its arguments must be pointers to float64."""
+    """Compile a kernel as a C function. All arguments of the kernel must be pointers to float64."""
     told = event.trigger_event(COMPILING, data={"dispatcher": function})
     with own_cache(function.py_func), told:
         return numba.cfunc(signature_of(function), **SETTINGS)(function.py_func)
@@ -178,7 +178,6 @@ class Progress(event.Listener):
 
 
 def _is_own(compiled):
-    """Return whether a numba event concerns a function of this package or of a generated module."""
     return compiled.data["dispatcher"].py_func.__module__.startswith("impact_damper")
 
 

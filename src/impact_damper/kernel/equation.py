@@ -80,7 +80,7 @@ def no_return(p):
 
 @kernel_only
 def has_escaped(p, x, v):
-    """Return whether Z1 = x is beyond `no_return` and moves outward. If k3 < 0, NaN gives True."""
+    """Return whether |Z1| is above `no_return` and grows. If k3 < 0, NaN counts as escaped."""
     return p[CUBIC] < 0.0 and not (abs(x) <= no_return(p) or x * v <= 0.0)
 
 
@@ -99,7 +99,7 @@ def energy(p, y):
 
 
 def coefficients(at):
-    """Yield the lines that load the coefficients of the spring's nonlinear terms.
+    """Yield lines of code that load the coefficients of the spring's nonlinear terms.
 
     `at(name)` returns the code that reads the parameter `name`, one of `packed.NAMES`.
     """
@@ -107,7 +107,7 @@ def coefficients(at):
 
 
 def beginning(at):
-    """Yield the lines that compute the variables, such as `stiffness`, which `motion` needs."""
+    """Yield lines of code that compute variables, such as `stiffness`, for `motion`."""
     yield from coefficients(at)
     yield "double = 2.0 * cubic"
     yield "s0 = cubic * x0 * x0"
@@ -116,7 +116,7 @@ def beginning(at):
 
 
 def motion(order, phase, constants, across):
-    """Yield the lines that compute the Taylor series of a step up to `order`.
+    """Yield lines of code that compute the Taylor series of a step up to `order`.
 
     `phase` is "flight" or "contact". The lines read x0, x1, `push` (`templates.friction`), `cosine`
     = (F + U W^2) cos(W T), `sine` = (F + U W^2) sin(W T), and the variables of `beginning`. In
@@ -142,7 +142,7 @@ def motion(order, phase, constants, across):
 
 
 def tangent(order, phase, constants):
-    """Yield the lines that compute the series of a tangent up to `order`.
+    """Yield lines of code that compute the series of a tangent up to `order`.
 
     A tangent is a solution of the variational equations. In these lines x0, x1, ... and q0, q1, ...
     are coefficients of the tangent. u0, u1, ... come from `squares`. Arguments are as in `motion`.
@@ -157,7 +157,7 @@ def tangent(order, phase, constants):
 
 
 def squares(count):
-    """Yield the lines that compute the first `count` coefficients u0, u1, ... of 3 k3 x^2.
+    """Yield lines of code that compute the first `count` coefficients u0, u1, ... of 3 k3 x^2.
 
     3 k3 x^2 is the slope of the spring's nonlinear force at Z1 = x. The lines read x0, x1, ... and
     the variables of `coefficients`.
@@ -172,7 +172,7 @@ def squares(count):
 
 
 def _lower_squares(n):
-    """Yield lines that update the coefficients s0, s1, ... of k3 l^2 after a new term of l.
+    """Yield lines of code that update the coefficients s0, s1, ... of k3 l^2 after a new term of l.
 
     l = x0 + x1 t + ... + x{n} t^n, where x{n} is new. The lines add 2 k3 x{n} x{j} to s{n+j} for
     each j < n, and set s{2n} = k3 x{n}^2. docs/explanation/series.md says what l is for.
@@ -187,7 +187,7 @@ def _lower_squares(n):
 
 
 def _without_damping(k, drive):
-    """Yield lines for c{k}, which is g{k} without damping. `drive` is the forcing's coefficient."""
+    """Yield lines of code that compute c{k}, the coefficient g{k} of Z1'' without damping."""
     n, odd = k // 2, k % 2
     last = k - n - 1
     if odd and last % 2 and last > 1:
@@ -212,7 +212,10 @@ def _without_damping(k, drive):
 
 
 def _accelerations(k, phase, loose):
-    """Yield lines that compute g{k} and x{k+2} from c{k}, and in contact q{k+2} from {loose}{k}."""
+    """Yield lines of code that compute g{k} and x{k+2} from c{k}, and in contact also q{k+2}.
+
+    q{k+2} follows from c{k} if `loose` is "c", and from m{k} (`motion`) if `loose` is "m".
+    """
     a, b = (f"a{k - 1}", f"b{k - 1}") if k > 0 else ("x1", "q1")
     factor = 1 / ((k + 1) * (k + 2))
     yield f"g{k} = c{k} - h{k} * {a}"

@@ -38,11 +38,12 @@ CONTACT_ORDER = 23
 # STATE           the state Z1, Z1', Z2, Z2' at the beginning of the step, afterwards at its end
 # STEP            SIDE, TIME, LONGEST and TOLERANCE are arguments; SIDE and LENGTH are results
 # SCRATCH, FREE   intermediate results
-# SERIES          Taylor coefficients; E, H and D are constant unless the loose mass sticks
-#   X: Z1   Q: depth in a wall, Z2 - SIDE d0   G: Z1'' without the wall's force   H: DAMPING/k
-#   U: slope of the spring's nonlinear force   E: forcing divided by COSINE or SINE   D: DASHPOT/k
+# SERIES          Taylor coefficients, a row for each order k. E, H and D depend on parameters only:
+#   X  Z1                           Q  depth in a wall, Z2 - SIDE d0
+#   G  Z1'' without wall's force    U  slope of the spring's nonlinear force
+#   E  forcing over COSINE or SINE  H  DAMPING/k                       D  DASHPOT/k
 # A tangent is a solution of the variational equations. Groups of a tangent's rows, in this order:
-# STATE and KEPT, which is the tangent's Z2 while the loose mass sticks
+# STATE, KEPT     the tangent's state, and its Z2 while the loose mass sticks
 # TANGENT_SERIES  coefficients of the tangent's Z1 (DX) and of the tangent's depth (DQ)
 STATE = "Y0 Y1 Y2 Y3".split()
 STEP = "SIDE TIME LONGEST TOLERANCE LENGTH".split()
@@ -53,13 +54,12 @@ SCRATCH = (
     "DRAW BASE_COSINE BASE_SINE ACROSS MOST SWAYS SWAY SWAY_SLOPE SWAY_CURVE SWAY_JERK JERK_BOUND "
     "APART PUSH ROUGH SLIDE BEND STICKS STUCK HELD_Z2 LIMIT TURN"
 ).split()
-# Parameters that `friction.hold` changes if the loose mass sticks. FREE rows store the old values.
+# Parameters that `friction.hold` changes if the loose mass sticks. Rows FREE keep the old values.
 HELD = ["DAMPING", "STIFFNESS", *map(str.upper, NONLINEAR), "CONTACT_STIFFNESS", "DASHPOT"]
 FREE = [f"FREE_{name}" for name in HELD]
 SINGLE = list(packed.NAMES) + STATE + STEP + SCRATCH + FREE
 SERIES = "X Q G U E H D".split()
 TANGENT_SERIES = "DX DQ".split()
-# First lines of a generated module.
 IMPORTS = f"""import math
 import numpy as np
 from {branches.__name__} import bits, number, template
@@ -74,7 +74,7 @@ SINES = [(-1.0) ** k / math.factorial(2 * k + 1) for k in range(1, 9)]
 
 
 def instance(lanes, flight_order=FLIGHT_ORDER, contact_order=CONTACT_ORDER):
-    """Return the module for a number of lanes and for two orders, in flight and in contact."""
+    """Return the generated module for a number of lanes and for the orders of the series."""
     name = f"impact_damper_step_{lanes}_{flight_order}_{contact_order}"
     if name in sys.modules:
         return sys.modules[name]
@@ -109,7 +109,7 @@ def _source(writer):
     lines = "".join(f"{name} = {value}\n" for name, value in constants.items())
     templates = forcing, root_search, across, friction, contact, separation, step
     text = "\n\n".join([lines, writer.text(), *map(inspect.getsource, templates)])
-    # `template` wraps each function of the templates so that kernels can call it.
+    # Kernels can call a function with the arguments a or a, d after `template` has wrapped it.
     pattern = r"^def (\w+)\((a|a, d)\):$(?!\n    for i in range\(\d+\):)"
     for name, arguments in re.findall(pattern, text, re.MULTILINE):
         text += f"\n\ndef call_{name}({arguments}):\n    {name}({arguments})\n"
@@ -120,7 +120,7 @@ def _source(writer):
 def rows(flight_order, contact_order):
     """Return a dictionary from names of rows to indices. The index of a series is its first row.
 
-    Rows from the index PARTS on hold partial sums. A step has ROWS rows, a tangent TANGENT_ROWS.
+    Other keys: PARTS is the first row of partial sums, ROWS and TANGENT_ROWS count all rows.
     """
     length = max(flight_order, contact_order) + 1
     single = {name: number for number, name in enumerate(SINGLE)}
@@ -137,7 +137,7 @@ def rows(flight_order, contact_order):
 class Writer:
     """Writes the source code of kernels that compute Taylor series.
 
-    There is room for four tangents with one lane, and for one tangent per lane with more lanes.
+    With one lane the kernels compute up to four tangents, otherwise one tangent in each lane.
     """
 
     def __init__(self, lanes, flight_order, contact_order):
@@ -147,18 +147,18 @@ class Writer:
         self.rows = rows(flight_order, contact_order)
 
     def at(self, row, k=0):
-        """Return code such as "a[48 + i]" for a trajectory's number, k rows after the row `row`."""
+        """Return code such as "a[48 + i]": lane i's number in the row k rows after `row`."""
         index = (self.rows[row] + k) * self.lanes
         return f"a[{index} + i]" if self.lanes > 1 else f"a[{index}]"
 
     def at_tangent(self, row, k=0):
-        """Return code such as "d[8 + i]" for a tangent's number, k rows after `row` ("": row 0)."""
+        """Return code such as "d[8 + i]": tangent i's number in the row k rows after `row`."""
         return f"d[{(self.rows.get(row, 0) + k) * self.tangents} + i]"
 
     def function(self, name, lines, tangent=False, first=(), side_by_side=4):
         """Return the source code of a kernel that executes `lines` for each lane.
 
-        With one lane lines `first` may come before, and use `side_by_side` coefficients at once.
+        With one lane the lines `first` may come before, with `side_by_side` coefficients at once.
         """
         arguments, lanes = ("a, d", self.tangents) if tangent else ("a", self.lanes)
         text, calls = "", ""
@@ -171,16 +171,16 @@ class Writer:
         return f"{text}def {name}({arguments}):\n{calls}"
 
     def moving(self, phase):
-        """Return the names of the unknown series: X for Z1, in contact also Q for the depth."""
+        """Return "X", the series of Z1, or in contact "XQ", with the series Q of the depth."""
         return "XQ" if phase == "contact" else "X"
 
     def constant_series(self):
-        """Return a kernel for the constant series E, H and D (see SERIES)."""
+        """Return the code of a kernel for the series E, H, D, which depend on parameters only."""
         lines = (self._computed(k, "EHD") for k in range(max(self.orders.values()) - 1))
         return self.function("constant_series", self._stored(chain.from_iterable(lines), "EHD"))
 
     def _computed(self, k, names):
-        """Yield lines for coefficient k of constant series. `names` has their letters, "EHD"."""
+        """Yield lines of code for coefficient k of the series in `names`, such as "EHD"."""
         factor = f"{1 / k!r} * " if k > 1 else ""
         if "E" in names and k < 2:
             beginning = [f"w = {self.at('FREQUENCY')}", "e0 = 1.0"], ["ww = w * w", "e1 = -w"]
@@ -192,7 +192,7 @@ class Writer:
             yield f"d{k} = {factor}{self.at('DASHPOT')}"
 
     def _constants(self, phase, tangent):
-        """Return a function that takes k and returns lines for coefficient k of constant series.
+        """Return a function that returns lines of code for coefficient k of the series E, H, D.
 
         With one lane the lines load the coefficient. With several lanes the lines compute the
         coefficient, because the trajectory in a lane can change after each step.
@@ -203,7 +203,7 @@ class Writer:
         return lambda k: [f"{name.lower()}{k} = {self.at(name, k)}" for name in names]
 
     def series(self, phase, across=False):
-        """Return a kernel that computes the series of a step: X and G, in contact also Q.
+        """Return the code of a kernel for the series X and G of a step, in contact also Q.
 
         If `across` is true, Q includes gravity, friction and a moving base (template `across`).
         """
@@ -235,7 +235,7 @@ class Writer:
         return self.function(name, self._stored(lines, f"{self.moving(phase)}G"))
 
     def squares(self, phase):
-        """Return a kernel that computes from the series X the series U, which tangents need."""
+        """Return the code of a kernel that computes the series U from the series X."""
         count = self.orders[phase] - 1
         lines = list(equation.coefficients(self.at))
         lines += [f"x{k} = {self.at('X', k)}" for k in range(count)]
@@ -243,7 +243,7 @@ class Writer:
         return self.function(f"{phase}_squares", lines)
 
     def tangent_series(self, phase):
-        """Return a kernel that computes the series of a tangent from the series U."""
+        """Return the code of a kernel that computes the series of a tangent from the series U."""
         order, names = self.orders[phase], self.moving(phase)
         lines = [
             *(f"u{k} = {self.at('U', k)}" for k in range(order - 1)),
@@ -260,13 +260,11 @@ class Writer:
         return self.function(f"{phase}_tangent_series", lines, tangent=True)
 
     def _factors(self, phase):
-        """Yield lines that load the factors `r1` and `mobility` in contact. Flight needs none."""
         if phase == "contact":
             yield f"r1 = {self.at('CONTACT_STIFFNESS')}"
             yield f"mobility = 1.0 + {self.at('INVERSE_MASS_RATIO')}"
 
     def _stored(self, lines, names, tangent=False):
-        """Yield `lines`, and further lines that store the coefficients of the series in `names`."""
         for line in lines:
             yield line
             target = line.split(" = ")[0]
@@ -318,8 +316,8 @@ class Source(Writer):
     def sums(self, name, phase, time, results, then=(), begin=0, terms=99):
         """Return the source code of a kernel that sums series at the time in the row `time`.
 
-        Keys of `results` are rows for the sums, values are series: "X" means the series X, "X'" the
-        derivative of X, and "|X|" the moduli of the terms of X. A sum begins at the order `begin`
+        In `results` the key is the row for a sum, and the value a series: "X" is the series X, "X'"
+        its derivative, and "|X|" the moduli of the terms of X. A sum begins at the order `begin`
         and has at most `terms` terms. The kernel ends with the lines `then`. For speed a sum is
         computed as four partial sums, each of which has every fourth term.
         """
@@ -339,7 +337,6 @@ class Source(Writer):
         return self.function(name, [*lines, *then], first=first)
 
     def _parts(self, series, orders, parts):
-        """Yield lines that compute the four partial sums of a series in one vector register."""
         for k in orders[::4]:
             four = self._coefficient(series, *range(k, k + 4))
             power = k - orders[0]
@@ -347,7 +344,7 @@ class Source(Writer):
         yield f"{_widened(parts[0])} = part"
 
     def circular(self):
-        """Return a kernel that sums the series COSINES and SINES at ANGLE."""
+        """Return the code of a kernel that sums the series COSINES and SINES at ANGLE."""
         cosine, sine = self.at("CIRCLE_COSINE"), self.at("CIRCLE_SINE")
         angle = [f"t = {self.at('ANGLE')}", "u = t * t", "v = u * u"]
         if self.lanes == 1:
@@ -358,7 +355,6 @@ class Source(Writer):
         return self.function("circular_series", lines)
 
     def _coefficient(self, series, *orders):
-        """Return the code for a coefficient of a series, or for a vector of coefficients."""
         number = self.at(series.strip("'|"), orders[0])
         if len(orders) > 1:
             number = _widened(number)
@@ -368,10 +364,7 @@ class Source(Writer):
         return f"abs({number})" if series.startswith("|") else number
 
     def _wall(self):
-        """Yield lines for the second (CURVE) and third (JERK) derivatives of Z1 and of the depth.
-
-        Before these lines Z1_CURVE and Z1_JERK hold g and g'. g is Z1'' without the wall's force.
-        """
+        """Yield lines of code for the second and third derivatives of Z1 and of the depth."""
         mobility = f"(1.0 + {self.at('INVERSE_MASS_RATIO')})"
         for force, depth_row, rate, derivative in (
             ("force", "DEPTH", "DEPTH_SLOPE", "CURVE"),
@@ -385,7 +378,7 @@ class Source(Writer):
             yield f"{z1} -= {force}"
 
     def _tail(self, phase):
-        """Yield lines that store in TAIL how large the last terms of the velocities' series are."""
+        """Yield code that stores in TAIL the largest modulus of the velocities' last two terms."""
         last = self.orders[phase]
         yield "last = 0.0"
         for row in self.moving(phase):
@@ -397,7 +390,7 @@ class Source(Writer):
         yield f"{self.at('TAIL')} = {' * '.join(['last', *factors])}"
 
     def tangent_value(self, phase):
-        """Return a kernel that sums the series of a tangent at the time T."""
+        """Return the code of a kernel that sums the series of a tangent at the time T."""
         lines = [*self._time("T", phase)]
         for number, name in enumerate(self.moving(phase)):
             terms = [self.at_tangent(f"D{name}", k) for k in range(self.orders[phase] + 1)]
@@ -407,7 +400,6 @@ class Source(Writer):
         return self.function(f"{phase}_tangent_value", lines, tangent=True)
 
     def _time(self, row, phase):
-        """Yield lines that load t from a row, and compute the powers of t that `_sum` needs."""
         yield f"t = {self.at(row)}"
         yield "t2 = t * t"
         yield "t4 = t2 * t2"
@@ -422,18 +414,17 @@ def _widened(number):
 
 
 def _constants(*numbers):
-    """Return the code for a constant, or for a vector of constants."""
     return f"{numbers}[i]" if len(numbers) > 1 else repr(numbers[0])
 
 
 def _paired(c, result):
-    """Return a line for `result` = c[0] + ... + c[7] u^7, which reads u and v = u^2 (Estrin)."""
+    """Return a line of code that sets `result` to c[0] + ... + c[7] u^7 (Estrin's scheme)."""
     low, high = (f"({a} + {b} * u) + ({c} + {d} * u) * v" for a, b, c, d in (c[:4], c[4:]))
     return f"{result} = ({low}) + ({high}) * (v * v)"
 
 
 def _sum(c, result, parts, done):
-    """Yield lines that sum the terms c[k] t^k as four partial sums, each of every fourth term.
+    """Yield code that sums the terms c[k] t^k as four partial sums, each of every fourth term.
 
     `parts` are the partial sums of the first `done` terms. The lines add the other terms in rising
     order, because the highest coefficients are computed last.

@@ -66,7 +66,7 @@ def polynomial(c, order, t):
 
 @kernel
 def extremum(c, order, length, start):
-    """Return the largest modulus of a polynomial over [0, `length`], or `start` if it is larger.
+    """Return the largest modulus of a polynomial over [0, `length`], or `start` if this is larger.
 
     c[0] to c[`order`] are the coefficients of the polynomial. Turning points are sought only if an
     upper bound on the modulus exceeds `start`.
@@ -89,7 +89,7 @@ def extremum(c, order, length, start):
         t = length * piece / PIECES
         value, slope = polynomial(c, order, t)
         best = max(best, abs(value))
-        # |polynomial| grows at the beginning of the piece and falls at its end.
+        # The modulus has a maximum in the piece if it grows at the beginning and falls at the end.
         if slope * fall < 0.0 and value * slope < 0.0:
             turn = turning_time(c, order, t - length / PIECES, t, fall, slope)
             best = max(best, abs(polynomial(c, order, turn)[0]))
@@ -99,7 +99,10 @@ def extremum(c, order, length, start):
 
 @kernel_only
 def turning_time(c, order, begin, end, first, last):
-    """Return when a polynomial's slope is 0. The slope is `first` at `begin`, `last` at `end`."""
+    """Return the time, between `begin` and `end`, at which the slope of a polynomial is 0.
+
+    At `begin` the slope is `first`, and at `end` it is `last`.
+    """
     t = begin + (end - begin) * first / (first - last)
     for _ in range(4):
         _, slope = polynomial(c, order, t)
@@ -114,7 +117,7 @@ def turning_time(c, order, begin, end, first, last):
 
 @kernel_only
 def write_trajectory(p, y, side, tolerance, a):
-    """Write a trajectory into a workspace. The constant series E, H and D are not computed."""
+    """Write a trajectory into a workspace, but do not call `constant_series`."""
     for i in range(packed.COUNT):
         a[PARAMETERS + i] = p[i]
     for i in range(4):
@@ -126,7 +129,7 @@ def write_trajectory(p, y, side, tolerance, a):
 
 @kernel_only
 def load(p, y, side, tolerance, a):
-    """Write a trajectory into a workspace. Compute E, H and D if W, h or the dashpot is new."""
+    """Write a trajectory into a workspace. Call `constant_series` if W, h or the dashpot is new."""
     kept = True
     for i in (FREQUENCY, DAMPING, DASHPOT):
         kept = kept and a[PARAMETERS + i] == p[i]
@@ -137,7 +140,7 @@ def load(p, y, side, tolerance, a):
 
 @kernel_only
 def step_loaded(t, longest, a):
-    """Do one step of a loaded trajectory. Return the step's length and new `side`."""
+    """Do one step of the trajectory in a workspace. Return the step's length and the new `side`."""
     a[TIME] = t
     a[LONGEST] = longest
     if a[SIDE] == 0.0:
@@ -174,7 +177,7 @@ def step(p, y, side, t, longest, tolerance, work):
 
 @kernel_only
 def state_in_step(work, side, y, t):
-    """Return the state at time t of the last step in `work`. At t = 0 the state was y."""
+    """Return the state at time t after the beginning of the last step. At t = 0 it was y."""
     a = pointer(work)
     order = FLIGHT_ORDER if side == 0 else CONTACT_ORDER
     x, v = polynomial(work[X:], order, t)
@@ -193,7 +196,7 @@ def state_in_step(work, side, y, t):
 
 @kernel_only
 def series_of_loose_mass(work, side, y, c):
-    """Fill c with the Taylor series of Z2 in the last step, which began in y. Return the order."""
+    """Fill c with the Taylor series of Z2 in a step that began in the state y. Return the order."""
     a = pointer(work)
     order = FLIGHT_ORDER if side == 0 else CONTACT_ORDER
     for k in range(order + 1):

@@ -57,7 +57,7 @@ def _imports(path, packages):
 
 @cache
 def module_file(name) -> Path:
-    """Return the file of the module `name`, or of the module in which the object `name` is."""
+    """Return the file of the module `name`, or of the module that contains the object `name`."""
     path = ROOT.joinpath(*name.split("."))
     for place in (path, path.parent):
         for file in (place.with_suffix(".py"), place / "__init__.py"):
@@ -68,7 +68,7 @@ def module_file(name) -> Path:
 
 @cache
 def kernel_digest(*paths) -> str:
-    """Return a digest of numba's version and of all files on which kernels of `paths` depend."""
+    """Return a digest of numba's version and of all files on which kernels in `paths` depend."""
     digest = hashlib.sha256(version("numba").encode())
     for path in sorted(sources(*paths, *KERNEL.rglob("*.py"))):
         name = path.relative_to(ROOT) if path.is_relative_to(ROOT) else path

@@ -71,7 +71,7 @@ class _Lines(Body):
             self.builder.store(value, self.pointer(target), align=8)
 
     def pointer(self, node):
-        """Return the pointer to `a[1]`, or to the vector of lanes that begins at `a[1 + i]`."""
+        """Return the pointer to the number `a[1]`, or to the vector of all lanes in `a[1 + i]`."""
         own = isinstance(node.slice, ast.BinOp)
         number = ir.Constant(OFFSET, (node.slice.left if own else node.slice).value)
         if own and self.first is not None:
@@ -173,18 +173,16 @@ class Arithmetic:
         return self._intrinsic("llvm.fabs", number)
 
     def larger(self, first, second):
-        """Return the larger of two numbers; the second one if they cannot be compared (NaN)."""
+        """Return the larger of two numbers, or the second number if one of them is NaN."""
         return self.builder.select(self.builder.fcmp_ordered(">", first, second), first, second)
 
     def _repeated(self, value, count):
-        """Return a vector that holds a double `count` times."""
         vector = ir.Constant(ir.VectorType(FLOAT, count), ir.Undefined)
         vector = self.builder.insert_element(vector, value, ir.Constant(INDEX, 0))
         zeros = ir.Constant(ir.VectorType(INDEX, count), [0] * count)
         return self.builder.shuffle_vector(vector, vector, zeros)
 
     def _intrinsic(self, name, *values):
-        """Return the result of an LLVM intrinsic for `values`, which all have the same type."""
         kind = values[0].type
         suffix = f"v{kind.count}f64" if isinstance(kind, ir.VectorType) else "f64"
         signature = ir.FunctionType(kind, [kind] * len(values))
@@ -194,7 +192,6 @@ class Arithmetic:
         return self.builder.call(function, values)
 
     def _each(self, operation, *values):
-        """Return the result of an operation on numbers, or on each number of pairs."""
         if not any(map(self.is_pair, values)):
             return operation(*values)
         if self.width > 1:

@@ -16,7 +16,7 @@ contact_tangents = by_address(_ONE.contact_tangents)
 
 @kernel_only
 def load_tangents(tangents, d):
-    """Write tangents (m, 4) into d, the tangents' part of a workspace."""
+    """Write tangents, shape (m, 4), into d, the part of a workspace for tangents."""
     if len(tangents) > 0:
         for i in range(COLUMNS):
             for j in range(4):
@@ -25,7 +25,7 @@ def load_tangents(tangents, d):
 
 @kernel_only
 def unload_tangents(tangents, d):
-    """Copy tangents (m, 4) from d, the tangents' part of a workspace."""
+    """Copy tangents, shape (m, 4), from d, the part of a workspace for tangents."""
     for i in range(len(tangents)):
         for j in range(4):
             tangents[i, j] = d[COLUMNS * j + i]
@@ -33,7 +33,7 @@ def unload_tangents(tangents, d):
 
 @kernel_only
 def step_all(count, t, longest, a, d):
-    """Do a step of a trajectory and `count` tangents. Return the step's length and new `side`."""
+    """Do a step of a trajectory and of `count` tangents. Return its length and the new `side`."""
     before = a[SIDE]
     length, side = step_loaded(t, longest, a)
     if count > 0:
@@ -46,7 +46,7 @@ def step_all(count, t, longest, a, d):
 
 @kernel
 def step_with_tangents(p, y, tangents, side, t, longest, tolerance, work):
-    """Do a step as `single.step` does. Replace the `tangents` (m, 4), too, with m at most 4."""
+    """Do a step like `single.step`, also of up to four `tangents`, shape (m, 4), in place."""
     a, d = pointer(work), pointer(work[BEHIND:])
     load(p, y, side, tolerance, a)
     load_tangents(tangents, d)

@@ -1,4 +1,4 @@
-"""Check arguments of public functions, and convert them from the user's units to numbers."""
+"""Check arguments of public functions, and convert them to dimensionless numbers."""
 
 import math
 from dataclasses import replace
@@ -20,7 +20,7 @@ from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator, describe
 from impact_damper.model.units import UNITLESS, Scales
 
-# Physical quantity of each component Z1, Z1', Z2, Z2' of a state. STATE_UNITS: their SI units.
+# Physical quantities and SI units of the components Z1, Z1', Z2, Z2' of a state.
 STATE = ("displacement", "velocity", "displacement", "velocity")
 STATE_UNITS = "m, m/s, m, m/s"
 FARTHEST_STATE = dict(zip(STATE, (FARTHEST, FASTEST) * 2, strict=True))
@@ -29,7 +29,7 @@ PHASES = ("state_phase", "orbit_phase")
 
 
 class Model(NamedTuple):
-    """A dimensionless oscillator and its damper; `machine` is None if an `Oscillator` was given."""
+    """A dimensionless oscillator and its damper. `machine` is None for an `Oscillator`."""
 
     oscillator: Oscillator
     damper: Damper | None
@@ -43,11 +43,11 @@ class Model(NamedTuple):
         return self.oscillator.scales
 
     def pack(self, frequency=None) -> np.ndarray:
-        """Return the parameters at a frequency W (by default the model's) as an array."""
+        """Return packed parameters at a forcing frequency W, by default the model's frequency."""
         return pack(self.oscillator, self.damper, frequency or self.frequency)
 
     def describe(self, *others) -> dict:
-        """Return a dictionary of dimensionless parameters, also from the dataclasses `others`."""
+        """Return a dictionary of the parameters of the model and of the dataclasses `others`."""
         found = describe(self.oscillator, self.damper, *others)
         return found if self.frequency is None else found | {"frequency": self.frequency}
 
@@ -55,7 +55,7 @@ class Model(NamedTuple):
 def read_system(system, damper=None, *, needs_damper=False) -> Model:
     """Check `system` and `damper`, and return their `Model`. The damper may be None.
 
-    If `needs_damper`, None raises TypeError. A damper that does not fit raises ValueError.
+    If `needs_damper` is true, None raises TypeError. An unsuitable damper raises ValueError.
     """
     if isinstance(system, Machine):
         if damper is None and not needs_damper:
@@ -73,16 +73,16 @@ def read_system(system, damper=None, *, needs_damper=False) -> Model:
 
 
 def read_forced(system, damper, frequency, *, needs_damper=False) -> Model:
-    """Return the `Model` at a forcing frequency, which is given as W, or in Hz for a machine."""
+    """Return the `Model` with a forcing frequency. For a machine the argument is in Hz."""
     model = read_system(system, damper, needs_damper=needs_damper)
     own = model.scales.read("frequency", frequency, "frequency", **FREQUENCY_RANGE)
     return model._replace(frequency=own)
 
 
 def read_swept_damper(system, damper, frequency) -> Model:
-    """Return the model for a sweep of the clearance; the clearance of the damper is not used.
+    """Return the model for a sweep of the clearance. The damper's own clearance does not matter.
 
-    With an `Oscillator` the damper may be a dictionary without the clearance.
+    With an `Oscillator` the damper may be a dictionary of parameters without the clearance.
     """
     if isinstance(system, Oscillator) and isinstance(damper, dict):
         allowed = {"mass_ratio", "restitution", "contact_stiffness"}
@@ -102,14 +102,14 @@ def read_numbers(scales, name, values, kind="number", **bounds) -> np.ndarray:
 
 
 def _numbered(values):
-    """Return pairs (index, value). Values from a dataset or from pint keep their units."""
+    """Return pairs (index, value) of a sequence or a single value. Values keep their units."""
     if isinstance(values, (list, tuple)) or getattr(values, "ndim", 0) == 1:
         return enumerate(values)
     return enumerate(np.atleast_1d(values) if not hasattr(values, "units") else [values])
 
 
 def read_increasing(scales, name, values, kind="number", count=1, **bounds) -> np.ndarray:
-    """Return a dimensionless array. It must increase, and have at least `count` values."""
+    """Return a dimensionless array, or raise an error if it does not increase or is too short."""
     numbers = read_numbers(scales, name, values, kind, **bounds)
     if len(numbers) < count or np.any(np.diff(numbers) <= 0):
         given = shown(list(getattr(values, "values", values)))
@@ -120,12 +120,12 @@ def read_increasing(scales, name, values, kind="number", count=1, **bounds) -> n
 
 
 def read_frequencies(scales, values) -> np.ndarray:
-    """Return increasing forcing frequencies W, given in Hz for a machine."""
+    """Return an increasing array of forcing frequencies W. For a machine `values` are in Hz."""
     return read_increasing(scales, "frequencies", values, "frequency", **FREQUENCY_RANGE)
 
 
 def read_span(scales, name, span, kind, **bounds) -> tuple[float, float]:
-    """Return the least and the greatest value of a range as dimensionless numbers."""
+    """Return the least and the greatest value in `span` as dimensionless numbers."""
     ends = read_numbers(scales, name, span, kind, **bounds)
     if ends.shape != (2,) or not ends[0] < ends[1]:
         raise ValueError(f"{name} = {shown(span)}: must be two numbers, least and greatest")
@@ -133,7 +133,10 @@ def read_span(scales, name, span, kind, **bounds) -> tuple[float, float]:
 
 
 def read_radius(scales, radius, whole_gap=False) -> float | None:
-    """Return the dimensionless radius of random starts. `whole_gap` forbids None, and allows 0."""
+    """Return the dimensionless radius of the ball in which random starts lie, or None.
+
+    If `whole_gap` is true, None is an error, and 0 is allowed.
+    """
     if radius is None:
         if whole_gap:
             raise ValueError("radius = None: must be given with whole_gap; 0 for a machine at rest")
@@ -149,7 +152,6 @@ def read_pair(scales, name, values) -> np.ndarray:
 
 
 def _components(scales, name, values, kinds, words):
-    """Return dimensionless displacements and velocities. The error message contains `words`."""
     numbered = list(_numbered(values))
     if len(numbered) != len(kinds):
         raise ValueError(f"{name} = {shown(values)}: must be {words}")

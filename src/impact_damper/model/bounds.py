@@ -1,4 +1,4 @@
-"""Allowed ranges of parameters and arguments, and checks. Within the ranges every run ends.
+"""Allowed ranges of parameters and arguments, and checks. Values in the ranges let every run end.
 
 A range is a dictionary of keyword arguments of `check_number` or `check_count`.
 """
@@ -24,8 +24,9 @@ AMPLITUDE_RANGE = {"least": 0.0, "most": 1e6}
 STIFFNESS_RANGE = {"least": 1e-6, "most": 1e9}
 # Largest allowed ratio between the natural frequency of the contact and the forcing frequency.
 MOST_STIFF = 1e6
-# Radius of the ball in which random starts lie. MOST_RADIUS: its largest ratio to the clearance.
+# Range of the radius of the ball in which random starts lie.
 RADIUS_RANGE = {"above": 0.0, "most": 1e3}
+# Largest radius of this ball divided by the clearance.
 MOST_RADIUS = 1e3
 # Bounds of the fields of `settling.Settling`.
 TOLERANCE_RANGE = {"least": 1e-14, "most": 1e-3, "why": "rounding errors exceed smaller ones"}
@@ -36,16 +37,16 @@ FURTHER_RANGE = {"least": 0, "most": 10**7}
 # Largest number of runs in one call of a function. Memory must hold the results of all runs.
 MOST_RUNS = 10**6
 RUNS_RANGE = {"least": 1, "most": MOST_RUNS}
-# Cycles in a run (argument `periods`). LIFETIME_RANGE: in runs that measure how long chaos lasts.
+# Number of cycles in a run (argument `periods`).
 PERIODS_RANGE = {"least": 1, "most": 10**6}
+# Number of cycles in a run that measures how long chaos lasts.
 LIFETIME_RANGE = {"least": 100, "most": 10**7}
 SEED_RANGE = {"least": 0, "most": 2**63 - 1}
-# Largest |displacement| and |velocity| of a start. With larger ones a cycle takes minutes to run.
+# Largest |displacement| and |velocity| of a start. Larger values make a cycle last minutes.
 FARTHEST, FASTEST = 1e3, 1e6
 # Highest harmonic N of a harmonic balance. Memory grows as N^2, and computing time as N^3.
 HARMONIC_RANGE = {"least": 1, "most": 2**14}
 PACKAGE = f"{__name__.partition('.')[0]}."
-# Number of points of a grid.
 POINTS_RANGE = {"least": 2, "most": 10**5}
 # Range of the tolerance when integrators are compared.
 METHOD_TOLERANCE_RANGE = TOLERANCE_RANGE | {"most": 0.1}
@@ -60,7 +61,7 @@ def warn(text) -> None:
 
 
 def unlabelled(name, value):
-    """Return the number in a 0-dimensional array, or any other value unchanged."""
+    """Return the number in a 0-dimensional array without units. Return other values unchanged."""
     if getattr(value, "ndim", None) != 0 or not hasattr(value, "item"):
         return value
     units = getattr(value, "attrs", {}).get("units", "1")
@@ -80,7 +81,7 @@ def check_number(
     """Return `value` as a float, or raise an error if it is not allowed.
 
     Raise TypeError for a value that is no real number, such as True. Raise ValueError if the value
-    is not finite, or is out of bounds. If `given` is not empty, the message shows it as the value.
+    is not finite, or is out of bounds. If given, `given` is the value in the message.
     """
     value = unlabelled(name, value)
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
@@ -104,7 +105,7 @@ def check_number(
 
 
 def range_words(unit="", *, above=None, least=None, most=None, why="") -> list:
-    """Return the bounds of a range in words, such as "at least 2 kg"."""
+    """Return a list that has each bound of a range in words, such as "at least 2 kg"."""
     bounds = {"greater than": above, "at least": least, "at most": most}
     return [f"{word} {with_unit(end, unit)}" for word, end in bounds.items() if end is not None]
 
@@ -126,19 +127,19 @@ def check_frequency(value):
 
 
 def check_starts(starts, points, least=1):
-    """Check the number of starts at each of `points` values of a parameter."""
+    """Check `starts`, the number of starts at each of `points` values of a parameter."""
     most = max(least, MOST_RUNS // points)
     check_count("starts", starts, least=least, most=most, why=f"memory holds {MOST_RUNS} runs")
 
 
 def nearest(name, known) -> str:
-    """Return "; did you mean ...?" with the known name nearest to `name`, or "" if none is near."""
+    """Return the text "; did you mean X?" if a name X in `known` resembles `name`, otherwise ""."""
     matches = difflib.get_close_matches(name, known, 1) if isinstance(name, str) else []
     return f"; did you mean {matches[0]}?" if matches else ""
 
 
 def names_arguments(function):
-    """Decorate a public function or class: errors about wrong arguments then list all arguments.
+    """Decorate a public function or class so that errors about arguments list all arguments.
 
     The docstring of a dataclass also gets a list of its fields, with the meaning of each.
     """

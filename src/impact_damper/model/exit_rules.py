@@ -2,22 +2,22 @@
 
 During a contact u'' + 2 z u' + u = 0, if no other forces act. u is the penetration of the wall, z
 the damping ratio, u + 2 z u' the force of the wall. Time is multiplied by the natural frequency.
-By `zero_penetration`, the paper's rule, a contact ends when u = 0. Just before, the force pulls if
-z > 0. Equation (25) gives z. By `no_tension` a contact ends when the force falls to 0. If z < 1,
-the restitution is then exp(-(pi - 2 A) tan A) with z = sin(A) (Schwager and Poeschel, Physical
-Review E 78, 2008, 051304). If z > 1, the restitution is exp(-2 B coth B) with z = cosh(B).
+By `zero_penetration`, the paper's rule, a contact ends when u = 0, and equation (25) gives z. If
+z > 0, the wall pulls just before. By `no_tension` a contact ends when the force falls to 0. The
+restitution is then exp(-(pi - 2 A) tan A) with z = sin(A) if z < 1 (Schwager and Poeschel, Physical
+Review E 78, 2008, 051304), and exp(-2 B coth B) with z = cosh(B) if z > 1.
 """
 
 import math
 from functools import cache
 
 ZERO_PENETRATION, NO_TENSION = EXIT_RULES = ("zero_penetration", "no_tension")
-# Largest |z - 1| at which the damping is treated as critical.
+# Damping ratios closer to 1 than CRITICAL are treated as 1, critical damping.
 CRITICAL = 1e-6
 
 
 def restitution(ratio) -> float:
-    """Return the restitution for a damping ratio z, by the rule `no_tension`."""
+    """Return the restitution that follows from a damping ratio if the walls never pull."""
     if abs(ratio - 1) < CRITICAL:
         return math.exp(-2)
     if ratio < 1:
@@ -29,7 +29,7 @@ def restitution(ratio) -> float:
 
 @cache
 def damping_ratio(restitution_, rule=ZERO_PENETRATION) -> float:
-    """Return the damping ratio z that gives a restitution, by an exit rule."""
+    """Return the damping ratio at which contacts have this restitution. `rule` ends contacts."""
     logarithm = math.log(1 / restitution_)
     if rule == ZERO_PENETRATION or not logarithm:
         return logarithm / math.hypot(math.pi, logarithm)

@@ -1,4 +1,4 @@
-"""Systems in which one parameter varies, to follow branches of periodic orbits."""
+"""Systems with one parameter that varies, along which branches of orbits are followed."""
 
 from dataclasses import replace
 
@@ -9,13 +9,13 @@ from impact_damper.model.bounds import FREQUENCY_RANGE, nearest, shown
 from impact_damper.model.packed import FORCE, UNBALANCE, pack
 from impact_damper.model.parameters import Damper, Oscillator
 
-# PARAMETERS that can vary along a branch, each with its dataclass. The frequency has none. The
-# coordinate along a branch is the parameter if LINEAR has its name, otherwise log(parameter).
+# Parameters that can vary along a branch, and their dataclasses. The frequency has no dataclass.
 PARAMETERS = {"frequency": None}
 PARAMETERS |= dict.fromkeys(("damping", "cubic", "force", "unbalance"), Oscillator)
 PARAMETERS |= dict.fromkeys(("mass_ratio", "clearance", "restitution", "contact_stiffness"), Damper)
+# The coordinate along a branch is the parameter itself for these, otherwise its logarithm.
 LINEAR = ("frequency", "cubic", "force", "unbalance", "restitution")
-# The forcing has the amplitude F + U W^2. Indices of F and U in the array from `packed.pack`.
+# Indices, in packed parameters, of F and U in the amplitude F + U W^2 of the forcing.
 FORCING = {"force": FORCE, "unbalance": UNBALANCE}
 
 
@@ -31,7 +31,7 @@ def facts_of(parameter) -> tuple:
 def read_followed(model, parameter, span) -> tuple:
     """Check `parameter` and `span`. Return the key in PARAMETERS and the dimensionless span.
 
-    Some parameters have other names in a `Machine`. The model's value must lie in the span.
+    A `Machine` has other names for some parameters. The parameter of `model` must be in the span.
     """
     scales, damper = model.scales, model.damper
     names = {facts_of(name)[0] if scales.si else name: name for name in PARAMETERS}
@@ -51,10 +51,10 @@ def read_followed(model, parameter, span) -> tuple:
 
 
 def family_of(oscillator, damper, frequency, parameter, span):
-    """Return a function, the coordinate of the given system, and the coordinates of the span.
+    """Return a function from a coordinate to packed parameters, and three values of the coordinate.
 
-    The coordinate is `parameter` or its logarithm. The function returns the array of parameters at
-    a coordinate. Raise ValueError if the contact is too stiff at an end of the span.
+    The coordinate is `parameter` or its logarithm (LINEAR). The values belong to the given system
+    and, as a pair, to the ends of `span`. Too stiff a contact at an end raises ValueError.
     """
     part = {None: None, Oscillator: oscillator, Damper: damper}[PARAMETERS[parameter]]
     value = frequency if part is None else getattr(part, parameter)

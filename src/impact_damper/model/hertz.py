@@ -11,7 +11,7 @@ from typing import NamedTuple
 from impact_damper.model.bounds import names_arguments
 from impact_damper.model.units import convert, optional, physical
 
-# An impact lasts DURATION times the largest compression, divided by the speed.
+# An elastic impact lasts DURATION q/v. q is the largest compression, and v the speed before.
 # DURATION is (4/5) sqrt(pi) Gamma(2/5)/Gamma(9/10).
 DURATION = 2.9432752
 # A material under a ball yields if p0, the pressure at the centre of the contact, is at least YIELD
@@ -76,21 +76,21 @@ class HertzContact:
 
     @property
     def modulus(self) -> float:
-        """Effective modulus E*, Pa."""
+        """Effective modulus E* (Pa): 1/E* is the sum of (1 - nu^2)/E over loose mass and wall."""
         loose = (1 - self.poissons_ratio**2) / self.youngs_modulus
         return 1 / (loose + (1 - self.wall_poissons_ratio**2) / self.wall_youngs_modulus)
 
     @property
     def coefficient(self) -> float:
-        """Coefficient K of the force K q^(3/2), N/m^1.5."""
+        """Coefficient K (N/m^1.5) of the force K q^(3/2) at the compression q."""
         return 4 / 3 * self.radius**0.5 * self.modulus
 
     def pressure(self, force) -> float:
-        """Return the pressure p0 (Pa) at the centre for a force in N (Johnson, equation 4.24)."""
+        """Return the pressure p0 (Pa) in the centre of the contact (Johnson, equation 4.24)."""
         return (6 * force * self.modulus**2 / (math.pi**3 * self.radius**2)) ** (1 / 3)
 
     def yields(self, pressure) -> str:
-        """Return "yes", "no" or "unknown": does the loose mass or a wall yield at a pressure p0?"""
+        """Return whether the loose mass or a wall yields at a pressure: "yes", "no", "unknown"."""
         strengths = [self.yield_strength, self.wall_yield_strength]
         if any(each is not None and pressure >= YIELD * each for each in strengths):
             return "yes"
@@ -104,13 +104,13 @@ class HertzContact:
         return (5 * mass * speed**2 / (4 * self.coefficient)) ** 0.4
 
     def impact(self, speed, mass) -> Impact:
-        """Return the `Impact` of elastic bodies. The arguments are explained in `compression`."""
+        """Return the `Impact` of elastic bodies. `compression` explains the arguments."""
         q = self.compression(speed, mass)
         return Impact(q, self.coefficient * q**1.5, DURATION * q / speed)
 
     def stiffness(self, speed, mass) -> float:
-        """Return the stiffness k (N/m) of a linear spring that the impact compresses by q as well.
+        """Return the stiffness k (N/m) of a linear spring that the same impact compresses as far.
 
-        k q^2/2 = m v^2/2, as in `compression`. The force k q is 4/5 of the force after Hertz.
+        k q^2/2 = m v^2/2 (`compression` explains q, m, v). k q is 4/5 of the force after Hertz.
         """
         return 0.8 * self.coefficient * self.compression(speed, mass) ** 0.5

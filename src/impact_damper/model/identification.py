@@ -15,7 +15,7 @@ from impact_damper.model.units import QUANTITIES, check_si
 COLUMN = re.compile(r"\s*([a-z]+)[\s_\[(]+([^\s\])]+)[\])]?\s*")
 FEWEST = 20
 SPRING = ("linear_stiffness", "damping", "cubic_stiffness")
-# `from_response` divides R by at least FOLD. It makes PASSES fits, each from the last result.
+# `from_response` divides a residual by a slope of at least FOLD, and makes PASSES fits in turn.
 FOLD, PASSES = 0.1, 6
 
 
@@ -135,7 +135,7 @@ def from_response(cls, data, *, force) -> Identified:
 def _fit(residuals, guess, scale):
     """Return fitted parameters, standard errors, standard deviation of residuals, and a message.
 
-    `residuals` takes n sets of parameters, shape (parameters, n), and returns shape (samples, n).
+    The function `residuals` maps an array of n columns of parameters to n columns of residuals.
     """
     import numpy as np
     from scipy.optimize import least_squares
@@ -157,7 +157,10 @@ def _fit(residuals, guess, scale):
 
 
 def _free(time, parameters):
-    """Return the unforced decay of 1 kg for each column of parameters, shape (times, columns)."""
+    """Return the displacement of an unforced mass of 1 kg, shape (times, sets).
+
+    A column of `parameters` is a set: k, c, k3, displacement and velocity at the first time.
+    """
     import numpy as np
     from scipy.integrate import solve_ivp
 
@@ -235,7 +238,6 @@ def _read(data, kinds):
 
 
 def _columns(path, kinds):
-    """Return the columns `kinds` of a CSV file, as tuples of numbers in SI units."""
     with path.open(encoding="utf-8-sig", newline="") as file:
         reader = csv.DictReader(file)
         matches = filter(None, map(COLUMN.fullmatch, reader.fieldnames or ()))
@@ -256,7 +258,6 @@ def _columns(path, kinds):
 
 
 def _cell(path, line, kind, text):
-    """Return the number in a cell of a CSV file, or raise an error that names the cell."""
     try:
         return float(text)
     except (TypeError, ValueError):

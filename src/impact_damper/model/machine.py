@@ -24,7 +24,7 @@ MOST_DAMPING = 0.99
 
 
 class Derived(float):
-    """A field that a machine computed from other fields. A changed copy computes it again."""
+    """A value that a machine computed from its other fields, and computes again in a copy."""
 
 
 @bounds.names_arguments
@@ -178,7 +178,6 @@ class Machine:
             )
 
     def _derive(self):
-        """Set the fields that follow from other fields, such as natural_frequency."""
         if self.natural_frequency is None:
             found = math.sqrt(self.linear_stiffness / self.mass) / (2 * math.pi)
             object.__setattr__(self, "natural_frequency", Derived(found))
@@ -248,9 +247,9 @@ class Machine:
     def _static_deflection(self):
         """Return the static deflection (m) under the force, or under mass times base_acceleration.
 
-        With an unbalance return unbalance/mass, with base_displacement this displacement. Without
-        excitation return the deflection at which the spring's linear and cubic forces are equal,
-        or 1 mm if one of these forces is absent.
+        With an unbalance return unbalance/mass. On a base with a given displacement return
+        base_displacement. Without excitation return the deflection at which the spring's linear and
+        cubic forces are equal, or 1 mm if one of these forces is absent.
         """
         stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
         if self.force:
@@ -267,7 +266,7 @@ class Machine:
     def resonant_displacement(self) -> float:
         """Estimated displacement (m) at resonance: static deflection times max(1, m w/c).
 
-        c is `viscous_damping`. w is the natural frequency by the secant stiffness of the spring.
+        m is the mass, c is `viscous_damping`, and m w^2 the secant stiffness at static deflection.
         """
         static = self._static_deflection()
         stiffness = self.linear_stiffness + abs(self.cubic_stiffness) * static**2
@@ -282,7 +281,7 @@ class Machine:
         return self.linear_stiffness * x + abs(self.cubic_stiffness) * x**3
 
     def oscillator(self) -> Oscillator:
-        """Return the dimensionless oscillator that describes the machine in the scales `scales`."""
+        """Return the machine as a dimensionless `Oscillator`, with the scales in `scales`."""
         scales = self.scales
         force, unbalance = self.forcing
         return Oscillator(
@@ -325,7 +324,7 @@ class Machine:
         clearances : sequence of 2 floats, str or pint.Quantity
             In place of `gap`, the distances (m) from the loose mass at rest to both walls. Motions
             depend on the sum only, because no spring holds the loose mass between the walls. In a
-            state Z2 is 0 at mid-gap; at rest Z2 is half the difference of the distances, + or -.
+            state Z2 is 0 at mid-gap. At rest Z2 is plus or minus half the distances' difference.
         mount : dict, optional
             Arguments of `mounting`, such as {"inclination": "90 deg"}.
         contact
@@ -411,7 +410,7 @@ class TunedAbsorber:
         convert(self)
 
     def detuned(self, detuning) -> "TunedAbsorber":
-        """Return the absorber with the stiffness multiplied by 1 + detuning."""
+        """Return a copy of the absorber whose stiffness is multiplied by 1 + detuning."""
         factor = 1 + bounds.check_number("detuning", detuning, above=-1, most=10)
         return replace(self, stiffness=self.stiffness * factor)
 
@@ -428,7 +427,7 @@ def static_deflection(force, linear, cubic) -> float:
 
 
 def describe_si(machine, damper=None) -> dict:
-    """Return the values of a machine and its damper in SI units; the gap is the full play."""
+    """Return a dictionary of the values of a machine and its damper in SI units."""
     others = ("natural_frequency", "quality_factor")  # computed from stiffness and damping ratio
     found = {
         name: float(value)

@@ -7,7 +7,7 @@ from impact_damper.model.exit_rules import NO_TENSION
 from impact_damper.model.parameters import NONLINEAR, Oscillator, check_damper, parameters_in
 from impact_damper.model.text import number
 
-# NAMES of the numbers in `p`, in order. FREQUENCY is W, STIFFNESS is omega_l^2. DASHPOT is the
+# Names of the packed parameters, in order. FREQUENCY is W, STIFFNESS is omega_l^2. DASHPOT is the
 # coefficient of the walls' dashpot. FRICTION is per unit of loose mass. LAG is a time, DASHPOT /
 # CONTACT_STIFFNESS if the walls never pull, and 0 if the walls may pull.
 FIELDS = [each.name for each in parameters_in(Oscillator)]
@@ -65,7 +65,7 @@ def pack(oscillator, damper, frequency) -> np.ndarray:
 
 
 def cubic_spring(p) -> tuple:
-    """Return omega_l^2 and k3. Any nonlinear term besides k3 (none exists yet) is an error."""
+    """Return omega_l^2 and k3 of packed parameters. Other nonlinear terms raise ValueError."""
     for name in NONLINEAR:
         value = p[NAMES.index(name.upper())]
         if value and name != "cubic":

@@ -15,15 +15,14 @@ from impact_damper.model.units import UNITLESS, Scales
 def parameter(limits, kind, symbol, meaning, *, machine=None, power=None, **default):
     """Return a dataclass field for a dimensionless parameter. The field's metadata describe it.
 
-    `kind` is a key of `units.QUANTITIES`. `machine` is the name of the parameter in a `Machine`, if
-    it differs. `power` is given for coefficients of the spring: the power of Z1 in their term.
+    `kind` is a key of `units.QUANTITIES`. `machine` is the parameter's name in a `Machine`, if this
+    is another name. A coefficient of the spring has a `power`, the exponent of Z1 in its term.
     """
     facts = {"bounds": limits, "kind": kind, "symbol": symbol, "machine": machine, "power": power}
     return field(metadata=facts | {"meaning": f"{symbol}, {meaning}"}, **default)
 
 
 def _check(part):
-    """Check the parameters of a frozen dataclass; turn NumPy numbers into floats."""
     for each in parameters_in(part):
         value = getattr(part, each.name)
         number = bounds.check_number(each.name, value, **each.metadata["bounds"])
@@ -100,11 +99,10 @@ class Oscillator:
 
     @property
     def _terms(self) -> list:
-        """Names of the nonlinear coefficients of the spring, without those that are 0."""
         return [name for name in NONLINEAR if getattr(self, name)]
 
     def told(self, *names) -> str:
-        """Return text such as "cubic = 1". For a machine it has the machine's names and units."""
+        """Return parameters as text: "cubic = 1", or "cubic_stiffness = 2 N/m^3" for a machine."""
         found = []
         for name in names:
             facts = self.__dataclass_fields__[name].metadata
@@ -120,7 +118,7 @@ class Oscillator:
 
     @property
     def hardening(self) -> float:
-        """Coefficient (3/4) k3. If Z1 = a cos(W T), k3 Z1^3 has the first harmonic (3/4) k3 a^3."""
+        """Factor (3/4) k3. If Z1 = a cos(W T), the first harmonic of k3 Z1^3 is (3/4) k3 a^2 Z1."""
         others = [name for name in self._terms if name != "cubic"]
         if others:
             raise ValueError(f"{self.told(*others)}: must be 0 in closed forms (cubic springs)")
@@ -191,12 +189,15 @@ class Damper:
 
     @property
     def contact_damping(self) -> float:
-        """Damping ratio zeta_c = z/sqrt(1 + rm), with z by equation (25) or as in `exit_rules`."""
+        """Damping ratio zeta_c = z/sqrt(1 + rm) of the walls, as in the paper.
+
+        Equation (25) gives z for the paper's exit rule. `exit_rules` gives z for "no_tension".
+        """
         return damping_ratio(self.restitution, self.exit_rule) / math.sqrt(1 + self.mass_ratio)
 
     @property
     def contact_frequency(self) -> float:
-        """Natural frequency wn = sqrt(r1 (1 + 1/rm)). An elastic contact lasts the time pi/wn."""
+        """Natural frequency wn = sqrt(r1 (1 + 1/rm)) of a contact. It lasts pi/wn if elastic."""
         return math.sqrt(self.contact_stiffness * (1 + 1 / self.mass_ratio))
 
     @property
@@ -206,7 +207,10 @@ class Damper:
 
 
 def beyond_closed_forms(oscillator, damper) -> list:
-    """Return pairs (damper or oscillator, name) for gravity, friction and base, if not 0."""
+    """Return which of the damper's gravity and friction and the oscillator's base are not 0.
+
+    Each is returned as a pair: the damper or the oscillator, and the name of the parameter.
+    """
     terms = (damper, "gravity"), (damper, "friction"), (oscillator, "base")
     return [(part, name) for part, name in terms if getattr(part, name)]
 
@@ -221,11 +225,11 @@ def check_closed_form(oscillator, damper):
 
 
 def parameters_in(part) -> list:
-    """Return the fields of a dataclass, or of its instance, that hold parameters."""
+    """Return the fields of a dataclass, or of an instance of it, whose type is float or int."""
     return [each for each in fields(part) if each.type in (int, float)]
 
 
-# The spring's nonlinear coefficients: each name, and the power of Z1 that it multiplies.
+# Nonlinear terms of the spring: name of the coefficient ("cubic"), and exponent of Z1 (3).
 NONLINEAR = {
     each.name: each.metadata["power"]
     for each in parameters_in(Oscillator)
@@ -241,7 +245,7 @@ SYMBOLS = {
 
 
 def describe(*parts) -> dict:
-    """Return the parameters of several dataclasses in a dictionary; a part may be None."""
+    """Return the parameters of several objects in one dictionary. A part may be None."""
     return {
         each.name: getattr(part, each.name)
         for part in parts

@@ -7,7 +7,7 @@ POSITIONAL = 5
 
 
 def number(value, digits=3) -> str:
-    """Return a number rounded to `digits` significant digits, such as "2e7"; NaN is "none"."""
+    """Return a number as text with `digits` significant digits, such as "2e7"; NaN is "none"."""
     value = float(value) + 0.0  # -0.0 becomes 0.0
     if not math.isfinite(value):
         return "none" if math.isnan(value) else "∞" if value > 0 else "-∞"
@@ -21,7 +21,7 @@ def number(value, digits=3) -> str:
 
 
 def percent(share, digits=3) -> str:
-    """Return a share in per cent; a share below 1 never becomes "100 %"."""
+    """Return a share as text in per cent. A share below 1 is never rounded up to "100 %"."""
     if 0.9 < share < 1:  # rounding must not give 100 %
         digits = max(digits, 1 - math.floor(math.log10(1 - share)))
     text = number(100 * share, digits)
@@ -29,13 +29,13 @@ def percent(share, digits=3) -> str:
 
 
 def with_unit(value, unit, digits=6) -> str:
-    """Return a number with its unit. The unit "1" is left out. NaN becomes "none" without unit."""
+    """Return a number and its unit as text. The unit "1" is left out, and NaN becomes "none"."""
     text = number(value, digits)
     return text if text == "none" or unit in ("", "1") else f"{text} {unit}"
 
 
 def plain(value) -> str:
-    """Return a number as exact text: with six digits if these suffice, otherwise with all."""
+    """Return a number as text with six digits if these are exact, otherwise with all digits."""
     value = float(value)
     if not math.isfinite(value):
         return repr(value)

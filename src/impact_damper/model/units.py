@@ -12,9 +12,9 @@ from impact_damper.model.text import number, with_unit
 
 
 class Quantity(NamedTuple):
-    """A physical quantity: its SI unit, and the exponents of length, time and mass in the unit.
+    """A physical quantity: its SI unit, and the exponents of length, time and mass in this unit.
 
-    Datasets use the unit `shown`, if there is one. An SI value times `factor` is in this unit.
+    If `shown` is not empty, datasets use the unit `shown`: the SI value is multiplied by `factor`.
     """
 
     unit: str
@@ -30,7 +30,7 @@ class Quantity(NamedTuple):
         return self.shown or self.unit or "1"
 
 
-# Physical quantities by name. Parameters and dataset variables refer to these names as `kind`.
+# Physical quantities by name. For a parameter or a variable of a dataset `kind` is such a name.
 QUANTITIES = {
     "number": Quantity(""),
     "angle": Quantity("radian"),
@@ -52,12 +52,12 @@ QUANTITIES = {
     "impulse": Quantity("N s", length=1, time=-1, mass=1),
     "power": Quantity("W", length=2, time=-3, mass=1),
 }
-# TEXT matches a number with units. Other text never reaches pint, which evaluates any expression.
+# TEXT matches a number with units. pint gets no other text, because it evaluates expressions.
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 UNIT = r"(?:[^\W\d]\w*|[%°]\w*)(?:[²³]|(?:\^|\*\*)-?\d)?"
 TEXT = re.compile(rf"\s*({NUMBER})\s*((?:1/)?{UNIT}(?:[ */·]\s*{UNIT})*)?\s*")
 LONGEST_TEXT = 80
-# Two numbers joined by an operator, such as "0.05 kg * 40 mm".
+# Text with two numbers and an operator between them, such as "0.05 kg * 40 mm".
 CALCULATION = re.compile(r"\s*[\d.][^*/·+]*[*/·+]\s*[\d.].*")
 
 
@@ -90,7 +90,6 @@ def si_value(name, value, quantity) -> float:
 
 
 def _wrong_unit(value, text, unit):
-    """Return a remark for an error message, such as " (this text has no unit)", or ""."""
     if text is None:
         product = len(value) <= LONGEST_TEXT and CALCULATION.fullmatch(value)
         return " (write the result of the calculation, as one number with a unit)" * bool(product)
@@ -101,7 +100,7 @@ def _wrong_unit(value, text, unit):
 
 
 def _from_dataset(value):
-    """Return a single value of a dataset as text with its unit; return other values unchanged."""
+    """Turn a single value of a dataset into text with its unit. Return other values unchanged."""
     if getattr(value, "ndim", None) != 0 or hasattr(value, "magnitude"):
         return value
     units = getattr(value, "attrs", {}).get("units")
@@ -112,7 +111,7 @@ def _from_dataset(value):
 
 @cache
 def _factor(text, unit):
-    """Return the factor from the unit `text` to the SI unit `unit`; None if it cannot convert."""
+    """Return the factor that converts the unit `text` to the SI unit `unit`, or None."""
     import pint  # takes a third of a second; plain numbers do without pint
 
     registry = pint.get_application_registry()
@@ -127,14 +126,14 @@ def _factor(text, unit):
 
 
 def check_si(name, value, quantity, **bounds) -> float:
-    """Return a value in the SI unit of its quantity. `bounds` are arguments of `check_number`."""
+    """Return a value in the SI unit of `quantity`. Raise an error if it is outside `bounds`."""
     given = shown(value) if isinstance(value, str) else ""
     unit = QUANTITIES[quantity].unit
     return check_number(name, si_value(name, value, quantity), unit=unit, given=given, **bounds)
 
 
 def absolute_value(value, quantity) -> float | None:
-    """Return a deviation such as "0.2 mm" in the SI unit; return None for a fraction ("5 %")."""
+    """Return a tolerance such as "0.2 mm" in the SI unit, or None for a tolerance such as "5 %"."""
     if quantity is None or not (isinstance(value, str) or hasattr(value, "units")):
         return None
     try:
@@ -144,7 +143,7 @@ def absolute_value(value, quantity) -> float | None:
 
 
 def physical(quantity, meaning="", **others):
-    """Return a dataclass field for a quantity. `others` are its bounds (SI) and its `default`."""
+    """Return a dataclass field for a quantity. `others` has SI bounds, and may have a `default`."""
     default = {key: others.pop(key) for key in ("default",) if key in others}
     unit = QUANTITIES[quantity].unit
     facts = {"quantity": quantity, "bounds": others, "meaning": meaning}
@@ -155,7 +154,7 @@ optional = partial(physical, default=None)
 
 
 def convert(part) -> None:
-    """Convert the fields made by `physical` to SI units, in place. A default of None stays None."""
+    """Convert fields of a dataclass (see `physical`) to SI units. Optional fields may stay None."""
     for each in fields(part):
         value = getattr(part, each.name)
         if "quantity" in each.metadata and not (value is None and each.default is None):
@@ -166,7 +165,7 @@ def convert(part) -> None:
 class Scales(NamedTuple):
     """Scales of a machine in SI units: length x0, time 1/w0 and mass m1.
 
-    If `si` is true, users give values in SI units, and messages and results are in SI units.
+    If `si` is true, arguments, messages and results have units. Otherwise they are dimensionless.
     """
 
     length: float = 1.0
@@ -175,9 +174,9 @@ class Scales(NamedTuple):
     si: bool = False
 
     def unit(self, kind) -> float:
-        """Return the SI value of the dimensionless number 1. `kind` is a key of QUANTITIES.
+        """Return the SI value of a quantity whose dimensionless value is 1. `kind` names it.
 
-        A frequency in Hz is W w0/(2 pi), a gap is twice the clearance. If `si` is false, return 1.
+        For a frequency this is w0/(2 pi) in Hz, for a gap 2 x0 in m. If `si` is false, return 1.
         """
         if not self.si:
             return 1.0
@@ -196,19 +195,19 @@ class Scales(NamedTuple):
         return value / self.unit(kind)
 
     def range_to_si(self, bounds, kind) -> dict:
-        """Return a dimensionless range in SI units."""
+        """Convert a dictionary of bounds from dimensionless numbers to SI units."""
         return {
             end: value if end == "why" else self.to_si(value, kind) for end, value in bounds.items()
         }
 
     def read(self, name, value, kind, **bounds) -> float:
-        """Check an argument in the user's unit, and return it as a dimensionless number."""
+        """Check an argument, which may have a unit, and return it as a dimensionless number."""
         if not self.si:
             return check_number(name, value, **bounds)
         return self.from_si(check_si(name, value, kind, **self.range_to_si(bounds, kind)), kind)
 
     def told(self, name, value, kind) -> str:
-        """Return "name = value" for a dimensionless value, shown in the user's unit."""
+        """Return the text "name = value", with the SI value and its unit if `si` is true."""
         if not self.si:
             return f"{name} = {number(value, 6)}"
         return f"{name} = {with_unit(self.to_si(value, kind), QUANTITIES[kind].unit, 5)}"

@@ -11,21 +11,21 @@ SMALL = 0.5
 
 
 def is_outside(a, i):
-    """Return whether a loose mass that does not stick begins a flight at |Z2| > d0 (OUTSIDE)."""
+    """Return whether a step in flight begins at |Z2| > d0 and the loose mass does not stick."""
     return abs(a[Y2 + i]) > a[CLEARANCE + i] and a[STUCK + i] == 0.0
 
 
 def load_across(a):
-    """Compute ACROSS, the acceleration across (see above) at the beginning of a step.
+    """Compute ACROSS: Z2'' - Z1'' without the wall's force, at the beginning of a step.
 
-    MOST bounds the modulus in the step. SWAYS: number of lanes with gravity, base or friction.
+    MOST bounds its modulus in the step. SWAYS counts lanes with gravity, friction or moving base.
     """
     acting = 0
     rough = 0
     for i in range(LANES):
         acting += 1 if abs(a[GRAVITY + i]) + a[BASE + i] + a[FRICTION + i] > 0.0 else 0
         rough += 1 if a[FRICTION + i] > 0.0 else 0
-    # If the acceleration across is 0 now and was 0 in the last step, its rows are 0 already.
+    # If `acting` is 0, and was 0 in the last step (SWAYS), these rows are 0 already.
     if acting > 0 or a[SWAYS] > 0.0:
         for i in range(LANES):
             a[DRAW + i] = a[GRAVITY + i]
@@ -45,7 +45,10 @@ def load_across(a):
 
 
 def find_sway(a):
-    """Compute SWAY and the first three derivatives of SWAY at T. Do nothing if SWAYS is 0."""
+    """Compute SWAY and its first three derivatives at T. If SWAYS is 0, they stay 0.
+
+    SWAY is the part of Z2 - Z1 that gravity, friction and a moving base cause in the step.
+    """
     if a[SWAYS] > 0.0:
         for i in range(LANES):
             a[ANGLE + i] = 0.5 * a[FREQUENCY + i] * a[T + i]
@@ -85,10 +88,10 @@ def penetration_values(a):
 
 
 def find_return(a):
-    """Find the first contact in [0, T] in lanes whose flight begins at |Z2| > d0 (`is_outside`).
+    """Find the first contact in [0, T] in lanes whose flight begins beyond a wall, at |Z2| > d0.
 
     Let q be |Z2| - d0 at this wall. If f = q + LAG q' rises to zero while q > 0, the wall pushes
-    again: MODE becomes MET_DEEP. If a contact begins at |Z2| = d0, at either wall, MODE becomes
+    again, and MODE becomes MET_DEEP. If a contact begins at |Z2| = d0, at either wall, MODE becomes
     MET. WALL, T, END_Z1 and END_Z1_SLOPE are set as in `find_contact`. No search is needed if f
     falls (-q' exceeds LAG times a bound on |q''|) and the opposite wall is out of reach.
     """

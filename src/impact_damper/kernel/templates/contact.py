@@ -34,7 +34,7 @@ def distance_ahead(a, i, t):
 def expect_contact(a):
     """In lanes in which a contact is expected, move T from LENGTH to the contact's expected time.
 
-    A contact is expected if |Z2| exceeds d0 at LENGTH by the first three terms of its series.
+    A contact is expected if the first three terms of the series of Z2 give |Z2| > d0 at LENGTH.
     The expected time follows from the first half of the terms of Z1. So the processor need not wait
     for the last coefficients.
     """
@@ -52,7 +52,7 @@ def expect_contact(a):
 
 
 def guess_contact(a):
-    """In mode BRACKET set T to the estimated time of contact. If none is found, T is LENGTH."""
+    """Set T to the estimated time of the contact in lanes in mode BRACKET, elsewhere to LENGTH."""
     for i in range(LANES):
         a[T + i] = min(first_guess(a, i), a[LENGTH + i])
     flight_early(a)
@@ -117,7 +117,7 @@ def find_contact(a):
 
 
 def meet_expected(a):
-    """Do one iteration on times of expected contacts. Return how many lanes are undecided."""
+    """Improve the times of expected contacts once. Return how many lanes are still undecided."""
     flight_curve(a)
     find_sway(a)
     undecided = 0

@@ -6,7 +6,7 @@ Z1'' without the damper (the row G includes friction). Then
 
     (1 + rm) Z1'' = g - rm (GRAVITY - BASE A cos(W T))
 
-The loose mass sticks as long as the friction needed is below FRICTION, per unit of loose mass.
+The loose mass sticks as long as the friction that this needs is below FRICTION.
 """
 
 
@@ -37,7 +37,7 @@ def load_friction(a):
 
 
 def wall_force(a, i):
-    """Return the wall's force, per primary mass, at the beginning of a step; 0 in flight."""
+    """Return the wall's force divided by the primary mass, at the beginning of a step."""
     wall = a[SIDE + i]
     depth = a[Y2 + i] - wall * a[CLEARANCE + i]
     force = a[CONTACT_STIFFNESS + i] * depth + a[DASHPOT + i] * a[Y3 + i]
@@ -71,7 +71,7 @@ def let_go(a):
 
 
 def load_rates(a):
-    """With one lane, compute the constant series H and D again."""
+    """With one lane, compute the series H and D for a new damping and a new wall's dashpot."""
     if LANES == 1:
         for k in range(max(FLIGHT_ORDER, CONTACT_ORDER) - 1):
             a[H + k] = a[DAMPING] * (1.0 / max(k, 1))
@@ -79,7 +79,7 @@ def load_rates(a):
 
 
 def series_held(a, touching):
-    """Compute the series of a step in which the loose mass sticks in at least one lane (`hold`)."""
+    """Compute the Taylor series of a step in which the loose mass sticks in at least one lane."""
     hold(a)
     for i in range(LANES):
         inverse = a[INVERSE_MASS_RATIO + i]
@@ -101,7 +101,7 @@ def find_turn(a, touching):
     """Find the first turn or slip before T. `touching` says whether the step is in contact.
 
     At a turn a sliding loose mass stops (Z2' = 0). At a slip a sticking loose mass begins to slide.
-    In both cases MODE becomes TURNED, T becomes the time of the event, and END_Z1, ... are set.
+    In both cases MODE becomes TURNED, T the time of the event, and END_Z1, ... the state then.
     """
     if touching:
         contact_jerk(a)
@@ -172,12 +172,12 @@ def step_to_turn(a, i, touching):
 
 
 def wall_force_held(a, i):
-    """Return the wall's force, per primary mass, which is constant while the loose mass sticks."""
+    """Return the wall's force divided by the primary mass, while the loose mass sticks."""
     return a[FREE_CONTACT_STIFFNESS + i] * (a[Y2 + i] - a[SIDE + i] * a[CLEARANCE + i])
 
 
 def end_turn(a):
-    """Set Z2' to 0 if the loose mass stops or sticks, and to SLIDE times TINY after a slip."""
+    """Set Z2' to 0 if the loose mass stops or sticks, and to almost 0 if it begins to slide."""
     for i in range(LANES):
         slipped = a[STUCK + i] > 0.0 and a[MODE + i] == TURNED
         held = a[STUCK + i] > 0.0 and not slipped
@@ -195,9 +195,9 @@ def keep_tangents(a, d):
 
 
 def friction_jump(a, d):
-    """Let tangents jump at a turn (saltation matrix), and undo `keep_tangents`.
+    """Let tangents jump when a sliding loose mass stops (saltation matrix). Undo `keep_tangents`.
 
-    At the turn friction per unit of loose mass jumps by J. Let b be Z2'' before the turn, and w be
+    Then friction per unit of loose mass jumps by J. Let b be Z2'' before the jump, and w be
     the tangent's Z2'. The tangent's Z1' jumps by -rm w J/b, and w jumps by -(1 + rm) w J/b. If the
     loose mass has stuck during the step, w becomes 0, and the tangent's Z2 becomes KEPT.
     """

@@ -55,7 +55,7 @@ def chebyshev(first, bend):
 
 
 def is_last_move(a, i, move, rate):
-    """Return whether `move` is the last. Its error, in units of 1/rate, is about |rate move|^3."""
+    """Return whether the estimated error after a move is so small that the search can end."""
     turn = max(rate, 2.0 / a[LENGTH + i]) * move
     return abs(turn * turn * turn) <= max(LAST_MOVE * a[TOLERANCE + i], ROUNDING)
 
@@ -90,9 +90,9 @@ def bracketed_step(a, i, t, f, first, bend, rate, fine):
 
 
 def store_end(a, i, row, end, move, going):
-    """If `going` is true, store a function's value at the time t + `move` in the row `end`.
+    """If `going` is true, store a function's value after the time `move` in the row `end`.
 
-    The next row gets the slope. The four rows from `row` on hold value and three derivatives at t.
+    The next row gets the slope. Four rows from `row` on hold the value and derivatives now.
     """
     value, slope = a[row + i], a[row + LANES + i]
     curve, jerk = a[row + 2 * LANES + i], a[row + 3 * LANES + i]

@@ -4,8 +4,8 @@ A contact ends when q + LAG q' falls to zero. q is the depth of the loose mass i
 LAG = 0 (the paper's rule) the wall may pull. With LAG = DASHPOT / CONTACT_STIFFNESS it never pulls.
 """
 
-# Longest step, in natural periods of the contact: LONGEST_DEEPENING if q grows at the beginning of
-# the step, LONGEST_RETURNING if q falls.
+# Longest step, in natural periods of the contact: LONGEST_DEEPENING if the depth q grows at the
+# beginning of the step, LONGEST_RETURNING if q falls.
 LONGEST_DEEPENING, LONGEST_RETURNING = 0.55, 0.4
 # If the phase in `find_separation` advances at a rate within 25 % of the natural frequency, a step
 # contains at most one separation: the phase advances by less than 0.55 * 1.25 < 3/4 revolution if q
@@ -22,14 +22,14 @@ def fast_exp2(y):
 
 
 def time_to_zero(f, slope, natural):
-    """Return about when a harmonic oscillation becomes 0. Its value is f now, its slope `slope`."""
+    """Return the approximate time after which a harmonic oscillation is 0. Its value now is f."""
     u = natural * f * (natural * f)
     v = slope * slope
     return -f * (15.0 * v + 4.0 * u) / (slope * (15.0 * v + 9.0 * u))
 
 
 def predict_separation(a):
-    """Compute LENGTH, the NATURAL frequency of the contact, and the predicted time T of separation.
+    """Compute the LENGTH of a step in contact, and the predicted time T of separation.
 
     T is at most LENGTH. The prediction does not wait for the coefficients of the series.
     """

@@ -12,16 +12,16 @@ index in `a` at which a row begins: a[Y0 + i] belongs to lane i. `instances` des
 
 # The 64 bits of the float 1.0, read as an integer.
 ONE = 1023 << 52
-# Last terms should be below SAFETY * tolerance * max(1, |Z1|, |Z1'|, ...), but see EXCESS.
+# The last terms of series should be below SAFETY * tolerance * max(1, |Z1|, |Z1'|, ...).
 # Contacts amplify errors. With 0.05 the errors of settled motions are below 10 times the tolerance.
 SAFETY = 0.05
 # A flight is shortened if its last terms exceed EXCESS times `largest_tail`. With EXCESS = 1 many
 # flights would be shortened, because `predict_length` is not exact.
 EXCESS = 4.0
-# A flight that begins at |Z2| > d0, while the wall is still coming back to d0, lasts at most
-# OUTSIDE times LAG. In the time LAG the wall's displacement falls to 1/e of its value.
+# A step in flight that begins at |Z2| > d0, while the wall is still coming back to d0, lasts
+# at most OUTSIDE times LAG. In the time LAG the wall's displacement falls to 1/e of its value.
 OUTSIDE = 2.0
-# A flight too short to change TIME ends in contact if the wall is nearer than NEAREST times d0.
+# A step too short to change TIME ends in contact if a wall is nearer than NEAREST times d0.
 NEAREST = 1e-9
 
 
@@ -71,7 +71,7 @@ def predict_length(a):
 
 
 def end_flight(a):
-    """Shorten flights whose TAIL is too large. Store Z1 and Z1' at their end (END_Z1, ...)."""
+    """Shorten steps whose last terms (TAIL) are too large. Store Z1 and Z1' at the end of steps."""
     flight_slope(a)
     beyond = 0
     for i in range(LANES):
@@ -119,7 +119,7 @@ def flight_step(a):
     find_sway(a)
     for i in range(LANES):
         t = a[T + i]
-        # `stuck` (not STUCK): a step next to a wall is too short to change TIME. A contact begins.
+        # `stuck` (not the row STUCK): a step towards a wall is too short to change TIME.
         near = 1.0 if a[Y2 + i] > 0.0 else -1.0
         stuck = a[TIME + i] + t == a[TIME + i] and t < a[LONGEST + i] and near * a[Y3 + i] > 0.0
         stuck = stuck and near * a[Y2 + i] > (1.0 - NEAREST) * a[CLEARANCE + i]
@@ -142,7 +142,7 @@ def flight_step(a):
 
 
 def shorten_outside(a):
-    """Shorten flights that begin at |Z2| > d0 (`across.is_outside`)."""
+    """Limit steps in flight that begin at |Z2| > d0 to the length OUTSIDE times LAG."""
     for i in range(LANES):
         shorter = min(a[LENGTH + i], OUTSIDE * a[LAG + i])
         a[LENGTH + i] = shorter if is_outside(a, i) else a[LENGTH + i]
