@@ -195,7 +195,7 @@ class MachineEntry(section.Section):
 
 
 def design_arguments(content, workers=1) -> dict:
-    """Return the arguments of `design_damper`, except the machine, from the content of a file."""
+    """Return the arguments of `design_damper`, except the machine, from a file's content."""
     # A local import, because the module loads SciPy.
     from impact_damper.design.task import Effort
 

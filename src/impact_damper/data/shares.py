@@ -41,7 +41,7 @@ def bounding_rank(share, total, doubt=DOUBT) -> int:
 
 
 def starts_needed(share) -> int:
-    """Return the least number of samples with which `bounding_rank` finds a bound."""
+    """Return the least number of samples that gives a bound for the fraction `share` of values."""
     return math.ceil(math.log(DOUBT) / math.log(share))
 
 

@@ -18,9 +18,9 @@ from impact_damper.design.task import labelled
 from impact_damper.model.machine import TunedAbsorber
 from impact_damper.theory.roots import polynomial_roots
 
-# An absorber is tuned for POINTS frequencies near the resonance or, if a band is given, for POINTS
-# frequencies in the band and those near the resonance that lie in it. Near the resonance means at
-# a distance of at most REACH widths of the resonance peak.
+# An absorber is tuned for POINTS frequencies around the resonance, up to REACH widths of the
+# resonance peak away from it. If a band is given, those outside the band are left out, and POINTS
+# frequencies in the band are added.
 POINTS, REACH = 1001, 8.0
 # The optimizer `differential_evolution` searches ln(absorber frequency/machine frequency) within
 # the bounds TUNINGS, and ln(damping ratio of the absorber) within the bounds DAMPINGS. TOLERANCE
@@ -71,7 +71,7 @@ def absorber_responses(
 
 @cache
 def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
-    """Return the best absorber over `band` (Hz) for the machine without its cubic spring."""
+    """Return the absorber with the lowest peak over `band` (Hz) if there is no cubic spring."""
     ratio, linear = mass / machine.mass, replace(machine, cubic_stiffness=0.0)
     frequencies = _frequencies(linear, ratio, band)
 
@@ -104,7 +104,7 @@ def response(machine, absorber, frequencies, force_shares=(1.0,)) -> np.ndarray:
     """Return amplitudes (m) for each frequency (Hz) and each factor in `force_shares`.
 
     Without a cubic spring the amplitudes are exact. With a cubic spring they are the largest stable
-    solutions of the harmonic balance, or infinite if no solution lies below its barrier.
+    solutions of the harmonic balance, or infinite if none lies below the barrier of the spring.
     """
     oscillator = machine.oscillator()
     pairs = zip(*_dynamics(machine, absorber, np.asarray(frequencies)), strict=True)

@@ -26,7 +26,7 @@ STREAMS = "search compared confirmed orbit forces masses repeated shocks searche
 # A thread draws the starts of DRAWN cells at a time, and runs FOLLOWED motions at a time.
 # `Motions.largest` continues up to TOGETHER regimes, then computes the bounds of all cells again.
 DRAWN, FOLLOWED, TOGETHER = 4, 64, 8
-# Two unsettled motions, neighbours in size, are in one regime if their ratio is at most APART.
+# Unsettled motions are sorted by displacement. Neighbours with a ratio up to APART form a regime.
 APART = 1.3
 # A block peak is the largest displacement of a motion in BLOCK cycles. `return_level` extrapolates
 # the TAIL largest block peaks to the displacement that is exceeded once in HORIZON cycles.
@@ -34,8 +34,8 @@ BLOCK, TAIL, HORIZON = 50, 50, 100_000
 # The cycles of all motions of a regime are added up. The displacement is extrapolated if the sum is
 # POOLED or more. A regime is not run further if the sum is MOST_POOLED or more.
 POOLED, MOST_POOLED = 25_000, 200_000
-# With fewer cycles the displacement is not extrapolated. It is then raised by the fraction MISSING
-# for each time that the number of cycles must be doubled to reach POOLED.
+# With fewer than POOLED cycles the displacement is not extrapolated. It is raised by the fraction
+# MISSING for each time that the number of cycles must be doubled to reach POOLED.
 MISSING = 0.03
 # A run has QUARTERS parts, each with a largest displacement. If these differ at most by the
 # fraction STEADY, nothing is extrapolated. To compare gaps, ROUGH is used instead of STEADY.
@@ -147,7 +147,7 @@ class Motions:
         return sizes, known
 
     def bounds(self, rank) -> tuple:
-        """Return arrays over cells: `rank`-th largest displacement, its motion, whether known."""
+        """Return three arrays: `rank`-th largest displacement of each cell, its start, 1 if known."""
         found = np.empty(len(self.peaks)), *np.empty((2, len(self.peaks)), int)
         for k in range(len(self.peaks)):
             sizes, known = self.numbers(k)

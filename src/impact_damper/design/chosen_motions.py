@@ -35,7 +35,7 @@ COSTS = {
 
 
 def response_and_costs(task, decision, progress=None) -> xr.Dataset:
-    """Return the motions with the chosen damper, and impacts, forces and losses of the largest."""
+    """Return motions with the chosen damper, and impacts and forces of the largest motions."""
     effort = task.effort
     settling = replace(effort.settling, further=FURTHER)
     searched = {"starts": min(STARTS, effort.starts), "seed": effort.seed, "settling": settling}

@@ -71,13 +71,13 @@ def evaluate_gap(task: Task, progress=None) -> xr.Dataset:
 
 
 def confirm(task, gap, turn, sets, progress=None) -> Tried:
-    """Return bounds at a gap (mm) from new starts. `turn`, a count of earlier calls, is a seed."""
+    """Return bounds at a gap (mm), from starts that calls with another `turn` do not use."""
     stream = "confirmed", turn
     return Tried(gap, Promise(task, 1e-3 * gap, sets, stream, progress=progress).refined())
 
 
 def learn(task, tried, turn, curve, progress=None) -> None:
-    """Put the bounds at a tried gap into the curve. If they are large, run nearby gaps again."""
+    """Put the bounds at a tried gap into `curve`. If they are large, run nearby gaps again."""
     gap, promise = tried.gap, tried.promise
     sizes, factors = promise.by_set(), promise.sets[:, 0]
     expected = curve.within(*np.array(task.gap_ends(gap))[:, None])[0]
@@ -173,7 +173,7 @@ def conclude(task, found, curve, status) -> xr.Dataset:
 
 
 def rivals(task) -> xr.Dataset:
-    """Return the largest displacement with each of three absorbers, NaN if a computation fails."""
+    """Return the largest displacement with the tuned, the detuned and the given absorber, or NaN."""
     names = ("tuned_displacement", "detuned_displacement", "own_absorber_displacement")
     values = dict.fromkeys(names, np.nan)
     given = task.machine, task.mass, task.grid, [1.0]

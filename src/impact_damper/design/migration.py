@@ -89,7 +89,7 @@ def migration(
 
 
 def _case(task, gap, frequency):
-    """Return the `ReleaseCase` at a frequency (Hz), or None if there is only one free motion."""
+    """Return the data of releases at a frequency (Hz), or None if it has only one free motion."""
     oscillator, damper, turning = task.system(gap, frequency)
     try:
         return release_case(oscillator, damper, turning, task.effort.settling)
@@ -98,7 +98,7 @@ def _case(task, gap, frequency):
 
 
 def release_time(case, seed, longest_hold, settling, stop) -> float:
-    """Return the cycles from switching the damper on to the small free motion, or infinity."""
+    """Return the time from switching the damper on to the small motion, in cycles, or infinity."""
     draws = np.random.default_rng(seed).random((1, 3))
     _, log = control(case, draws, longest_hold, settling, 0, None, stop)
     reached = log["destination"][0] == FREE_MOTION["non_resonance"]

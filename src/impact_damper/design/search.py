@@ -1,7 +1,7 @@
 """The search for the gap: a curve of displacements over the gap, finer at small displacements.
 
-Later runs near the best gaps use more starts and frequencies than the first runs, and vary other
-values too. The value of a nominal gap is the largest displacement at all gaps in its tolerance.
+Later runs, near the best gaps, use more starts and frequencies, and other values than the gap
+deviate too. The value of a nominal gap is the largest displacement at all gaps in its tolerance.
 """
 
 from typing import NamedTuple
@@ -58,8 +58,8 @@ class Curve:
     def put(self, gaps, sizes, worst, *, close=True, replace=False) -> None:
         """Add displacements `sizes` (mm) at `gaps` (mm), with their `worst` frequencies (Hz).
 
-        If the curve has a displacement at a gap already, the larger one is kept, or with `replace`
-        the new one. `close` is False in the first search.
+        If the curve has a displacement at a gap already, the larger one is kept. With `replace` the
+        new one is kept. `close` is False in the first search.
         """
         for gap, size, frequency in zip(gaps, np.minimum(sizes, HUGE), worst, strict=True):
             k = int(np.searchsorted(self.gaps, gap * (1 - 1e-9)))
@@ -93,7 +93,7 @@ class Curve:
         return np.exp(np.maximum(found, np.where(inside, values, -np.inf).max(axis=1)))
 
     def nominal(self) -> tuple:
-        """Return many nominal gaps (mm), and the largest displacement in the tolerance of each."""
+        """Return many nominal gaps (mm), and the largest displacement within each tolerance."""
         share, width = self.task.gap_tolerance
         first, last = (self.gaps[0] + width) / (1 - share), (self.gaps[-1] - width) / (1 + share)
         gaps = np.geomspace(first, max(last, first), NOMINAL_GAPS)
@@ -119,7 +119,7 @@ class Curve:
         return max(good, key=lambda each: each.high / each.low)
 
     def lost(self, gap, size) -> np.ndarray:
-        """Return the nearest lost gaps below and above `gap`, and a row of displacements there.
+        """Return the nearest lost gaps below and above `gap`, and the displacements at the two.
 
         A gap is lost if it lies outside the tolerance of `gap` and has a displacement above `size`.
         If no gap on one side is lost, both values of this side are NaN.
@@ -147,7 +147,7 @@ class Curve:
         return rows
 
     def critical(self) -> np.ndarray:
-        """Return the worst frequencies (Hz) of all gaps with small displacements."""
+        """Return the worst frequencies (Hz) of the gaps with displacements near the smallest one."""
         return np.unique(self.worst[self.sizes <= CANDIDATE * self.nominal()[1].min()])
 
     def unclear(self) -> np.ndarray:

@@ -18,7 +18,7 @@ from impact_damper.model.packed import FREQUENCY
 SHOCKS, WIDEST = 32, 2.0
 # A run has LONGEST cycles. The largest displacement is found in each block of BLOCK cycles.
 LONGEST, BLOCK = 1000, 10
-# `returned_share` is the share of starts that return within each of these numbers of cycles.
+# `returned_share` is computed for each of these numbers of cycles after a start.
 LIMITS = (10, 30, 100, 300, 1000 - BLOCK)
 
 
@@ -58,7 +58,7 @@ def shocks(task, decision, progress=None) -> xr.Dataset:
 
 
 def times_after(task, p, state, changes, promised):
-    """Return the convergence time after each of `changes` of the machine's velocity in `state`."""
+    """Return the convergence time after each of `changes` in the velocity of `state`."""
     states = np.tile(state, (len(changes), 1))
     states[:, 1::2] += np.asarray(changes)[:, None]
     return convergence_times(task, p, states, promised)

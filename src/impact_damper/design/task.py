@@ -226,7 +226,7 @@ class Task:
                 self.packed(gap, frequency, factors)
 
     def _checked_tolerances(self):
-        """Return {name: fraction}. A length as tolerance of the gap stays a text: "0.0002 m"."""
+        """Return {name: fraction}. A gap tolerance with a unit becomes text such as "0.0002 m"."""
         if not isinstance(self.tolerances, Mapping):
             raise TypeError(f"tolerances = {bounds.shown(self.tolerances)}: must be a dictionary")
         machine, found = self.machine, {}
@@ -348,7 +348,7 @@ class Task:
         return float(self.grid[np.argmax(self.bare)])
 
     def few(self, count, *others) -> np.ndarray:
-        """Return `count` frequencies (Hz) of the grid, plus the worst, the resonances, `others`."""
+        """Return `count` frequencies of `grid`, `worst_frequency`, `resonances`, `others` (all Hz)."""
         places = np.linspace(0, len(self.grid) - 1, count).round().astype(int)
         resonances = np.intersect1d(self.grid, self.resonances)
         return np.union1d(self.grid[places], [self.worst_frequency, *resonances, *others])
@@ -378,7 +378,7 @@ class Task:
         )
 
     def system(self, gap, frequency, factors=NOMINAL) -> tuple:
-        """Return the dimensionless oscillator, damper and frequency for a gap (m) and in Hz."""
+        """Return oscillator, damper and frequency without dimension, from a gap (m) and Hz."""
         varied = dict(zip(VARIED, factors, strict=True))
         oscillator = self.machine.oscillator()
         oscillator = replace(
