@@ -44,9 +44,8 @@ def force_map(task, decision, progress=None) -> xr.Dataset:
 def other_masses(task, decision, progress=None) -> xr.Dataset:
     """Return a dataset that compares the damper of the task with a heavier damper.
 
-    A short search finds the gap of the heavier damper. The dataset is empty if the damper of the
-    task is worth building and keeps the displacement limit. It is also empty if the heavier loose
-    mass exceeds the mass of the machine.
+    The dataset is empty if the damper of the task is worth building and keeps the displacement
+    limit. It is also empty if the heavier loose mass exceeds the mass of the machine.
     """
     fails = named(decision, "decision") == "do_not_build"
     fails |= named(decision, "limit_status") == "missed"

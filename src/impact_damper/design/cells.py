@@ -147,7 +147,11 @@ class Motions:
         return sizes, known
 
     def bounds(self, rank) -> tuple:
-        """Return three arrays: `rank`-th largest displacement of each cell, its start, 1 if known."""
+        """Return three arrays with an entry for each cell.
+
+        The first holds the `rank`-th largest displacement, the second the index of the start that
+        led to it. The third is 1 if this displacement is known, otherwise 0.
+        """
         found = np.empty(len(self.peaks)), *np.empty((2, len(self.peaks)), int)
         for k in range(len(self.peaks)):
             sizes, known = self.numbers(k)
@@ -199,7 +203,6 @@ class Motions:
         self.peaks[k, loud] = np.maximum(before, peaks[loud].max(axis=1))
 
     def _settle(self, k, places):
-        """Run motions of cell k for at most CHECKED cycles. Return a mask of those that settle."""
         effort = self.task.effort
         found = ensemble.settle(
             np.repeat(self.parameters[k : k + 1], len(places), axis=0),

@@ -173,7 +173,7 @@ def conclude(task, found, curve, status) -> xr.Dataset:
 
 
 def rivals(task) -> xr.Dataset:
-    """Return the largest displacement with the tuned, the detuned and the given absorber, or NaN."""
+    """Return the largest displacement with a tuned, a detuned and the given absorber, or NaN."""
     names = ("tuned_displacement", "detuned_displacement", "own_absorber_displacement")
     values = dict.fromkeys(names, np.nan)
     given = task.machine, task.mass, task.grid, [1.0]

@@ -106,7 +106,6 @@ def release_time(case, seed, longest_hold, settling, stop) -> float:
 
 
 def _table(task, gaps, times, longest_hold) -> xr.Dataset:
-    """Return the dataset of releases. `times` (s) are NaN where there is only one free motion."""
     rank = bounding_rank(task.share, times.shape[-1])
     bounds = -np.sort(-times, axis=-1)[..., rank - 1]
     one = np.isnan(times[..., 0])

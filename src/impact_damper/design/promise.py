@@ -80,7 +80,7 @@ class Promise:
         rare = np.flatnonzero(bounds > RARE * np.maximum(usual, usual.max()))
         rare = [place for place in rare[np.argsort(-bounds[rare])] if place not in self.again]
         total = MORE * self.count
-        # The old and the new bound of a cell are both right with a probability of 1 - DOUBT or more.
+        # With a probability of at least 1 - DOUBT both the old and the new bound of a cell hold.
         used = bdtr(self.rank - 1, self.count, 1 - self.task.share)
         rank = bounding_rank(self.task.share, total, DOUBT - used)
         while rare and rank:

@@ -147,7 +147,7 @@ class Curve:
         return rows
 
     def critical(self) -> np.ndarray:
-        """Return the worst frequencies (Hz) of the gaps with displacements near the smallest one."""
+        """Return the worst frequencies (Hz) of all gaps with displacements near the smallest."""
         return np.unique(self.worst[self.sizes <= CANDIDATE * self.nominal()[1].min()])
 
     def unclear(self) -> np.ndarray:

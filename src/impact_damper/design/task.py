@@ -194,7 +194,6 @@ class Task:
         self._set(name, length)
 
     def _stiffness(self):
-        """Return the contact stiffness, N/m. By Hertz's law it depends on the speed of impact."""
         limits = self.scales.range_to_si(bounds.STIFFNESS_RANGE, "stiffness")
         stiffness = self.contact
         if isinstance(stiffness, HertzContact):
@@ -348,7 +347,10 @@ class Task:
         return float(self.grid[np.argmax(self.bare)])
 
     def few(self, count, *others) -> np.ndarray:
-        """Return `count` frequencies of `grid`, `worst_frequency`, `resonances`, `others` (all Hz)."""
+        """Return `count` frequencies of the grid, evenly spread, and some more, all in Hz.
+
+        These are `self.worst_frequency`, those in `self.resonances`, and `others`.
+        """
         places = np.linspace(0, len(self.grid) - 1, count).round().astype(int)
         resonances = np.intersect1d(self.grid, self.resonances)
         return np.union1d(self.grid[places], [self.worst_frequency, *resonances, *others])
