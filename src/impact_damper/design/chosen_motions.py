@@ -74,7 +74,6 @@ def reached_motions(task, choice, response) -> xr.Dataset:
 
 
 def _measured(task, case, size, state, periods):
-    """Return displacement and costs of a motion by name. `size` (mm) is infinite if it escapes."""
     if not np.isfinite(size):
         return dict.fromkeys(("pressure_by_frequency", *COSTS), np.nan) | {
             "reached_displacement": size,

@@ -17,7 +17,7 @@ from impact_damper.design.task import NOMINAL, NUMERICAL, SIDES, VARIED, Task, l
 # Up to ROUNDS gaps are run with new starts. The rounds end early if the search chooses a gap again,
 # or if the least promised displacement is at most CONFIRMED x the one that the search expects.
 CONFIRMED, ROUNDS = 1.05, 4
-# Nearby gaps are run again if new starts give more than SURPRISE x the displacement of the search.
+# Nearby gaps are run again if bounds from new starts exceed SURPRISE x the result of the search.
 SURPRISE = 1.1
 
 

@@ -89,7 +89,7 @@ def migration(
 
 
 def _case(task, gap, frequency):
-    """Return the data of releases at a frequency (Hz), or None if it has only one free motion."""
+    """Return a case for releases at a frequency (Hz), or None if it has only one free motion."""
     oscillator, damper, turning = task.system(gap, frequency)
     try:
         return release_case(oscillator, damper, turning, task.effort.settling)

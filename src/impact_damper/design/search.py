@@ -93,7 +93,7 @@ class Curve:
         return np.exp(np.maximum(found, np.where(inside, values, -np.inf).max(axis=1)))
 
     def nominal(self) -> tuple:
-        """Return many nominal gaps (mm), and the largest displacement within each tolerance."""
+        """Return many nominal gaps (mm), and the largest displacement within the tolerance."""
         share, width = self.task.gap_tolerance
         first, last = (self.gaps[0] + width) / (1 - share), (self.gaps[-1] - width) / (1 + share)
         gaps = np.geomspace(first, max(last, first), NOMINAL_GAPS)
@@ -119,7 +119,7 @@ class Curve:
         return max(good, key=lambda each: each.high / each.low)
 
     def lost(self, gap, size) -> np.ndarray:
-        """Return the nearest lost gaps below and above `gap`, and the displacements at the two.
+        """Return the nearest lost gaps below and above `gap`, and the displacements at both.
 
         A gap is lost if it lies outside the tolerance of `gap` and has a displacement above `size`.
         If no gap on one side is lost, both values of this side are NaN.
