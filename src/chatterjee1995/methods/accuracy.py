@@ -42,12 +42,13 @@ meets_accuracy | run | | | whether the run meets the accuracy required by the sc
 )
 
 LONGER = 4  # the reference run of a chaotic scene is LONGER times as long as the scene
-# In chaos the contacts per cycle may be off by the fraction CONTACTS_OFF plus SURE standard errors.
+# In a chaotic motion the number of contacts per cycle is wrong if it differs from the reference by
+# more than the fraction CONTACTS_OFF plus SURE standard errors.
 CONTACTS_OFF, SURE = 0.1, 2
 
 
 class ComparisonScene(NamedTuple):
-    """A test motion from `state` at W T = pi/2; `motion`: "steady", "transient" or "chaotic"."""
+    """A test motion that begins with `state` at W T = pi/2. `motion` names its kind."""
 
     oscillator: Oscillator
     damper: Damper | None
@@ -59,12 +60,12 @@ class ComparisonScene(NamedTuple):
 
     @property
     def p(self):
-        """Packed parameters."""
+        """The packed parameters of the scene, which kernels read."""
         return pack(self.oscillator, self.damper, self.frequency)
 
 
 class Reference(NamedTuple):
-    """Results of a run in 80-bit arithmetic, which count as exact. `Run` explains the fields."""
+    """Last state, contact times and max |Z1| from 80-bit arithmetic. They count as exact."""
 
     state: np.ndarray
     contact_times: np.ndarray
@@ -89,10 +90,7 @@ def reference_of(scene, stored):
 
 
 def accuracy(system, damper, *, name, settings, references, **given):
-    """Return a dataset: errors and operations of integrators and models on the scene `name`.
-
-    `settings` is the section `comparison`. `given` are the other fields of `ComparisonScene`.
-    """
+    """Return a dataset: errors and operations of integrators and models on the scene `name`."""
     scene = ComparisonScene(oscillator=system, damper=damper, **given)
     if scene.motion == "chaotic":
         data = _averages(scene, settings)
@@ -105,7 +103,7 @@ def accuracy(system, damper, *, name, settings, references, **given):
 
 
 def _integrations(scene, settings, slow_periods):
-    """Yield (label, tolerance, `Run`, cycles). A slow integrator runs for `slow_periods` cycles."""
+    """Run each integrator at each tolerance; yield its label, tolerance, `Run` and cycles."""
     p, start = scene.p, np.array(scene.state, float)
     given = p, start, strobe_time(p), scene.periods
     for tolerance in settings["taylor"]:
@@ -117,7 +115,7 @@ def _integrations(scene, settings, slow_periods):
         run = orbit_models.rigid(p, restitution, *given[1:], tolerance)
         yield "rigid", tolerance, run, scene.periods
     for label, (integrator, locate) in runs_of_accuracy().items():
-        # `locate` makes steps end at contacts. Without a damper there are none: one run is enough.
+        # Without a damper there are no contacts at which steps could end, so one run is enough.
         if scene.damper is None and locate and False in integrator.located:
             continue
         tolerances, periods, most = settings[integrator.tolerances], scene.periods, None
@@ -132,7 +130,6 @@ def _integrations(scene, settings, slow_periods):
 
 
 def _errors(scene, settings, reference):
-    """Return the dataset's variables for a steady or transient scene, which has a `Reference`."""
     rows = [
         (label, setting, run, run.contact_times)
         for label, setting, run, _ in _integrations(scene, settings, scene.periods)
@@ -165,7 +162,6 @@ def _status(ended, wrong):
 
 
 def _named(scene, rows, status, errors):
-    """Return the variables that the datasets of steady, transient and chaotic scenes share."""
     met = np.abs(errors[scene.accuracy["quantity"]]) <= scene.accuracy["within"]
     return {
         "method": np.array([row[0] for row in rows]),
@@ -177,7 +173,7 @@ def _named(scene, rows, status, errors):
 
 
 def _orbits(scene, settings):
-    """Yield (label, highest harmonic or tolerance, `Model`) for each model of a steady motion."""
+    """For each model of a steady motion yield its label, its setting and the `Model`."""
     parts = scene.oscillator, scene.damper, scene.frequency
     state = np.array(scene.state, float)
     yield "rigid_balance", 1, orbit_models.rigid_balance(*parts, state)
@@ -193,10 +189,7 @@ def _orbits(scene, settings):
 
 
 def _times(scene, model, reference):
-    """Return the times at which a model's contacts begin, in the order of the reference's contacts.
-
-    If the contacts in a cycle cannot be matched one to one, all times are NaN.
-    """
+    """Return times at which a model's contacts begin, each near one of the reference (or NaN)."""
     p, period = scene.p, 2 * np.pi / scene.frequency
     count = len(reference.contact_times) // scene.periods
     if len(model.contact_phases) != count or count == 0:
@@ -213,7 +206,6 @@ def _times(scene, model, reference):
 
 
 def _averages(scene, settings):
-    """Return the dataset's variables for a chaotic scene."""
     p, start = scene.p, np.array(scene.state, float)
     batch, begin = settings["batch"], strobe_time(scene.p)
     rows, found = [], []

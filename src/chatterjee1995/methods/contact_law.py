@@ -1,8 +1,9 @@
-"""Closed form of one contact under a constant load. Two rules say when the contact ends.
+"""Closed form of one contact under a constant load, with two rules for its end.
 
-Scaled time is s = wn t, scaled penetration u = wn q/v0. u'' + 2 z u' + u = G, with the damping
-ratio z. `stages.contact_model` defines wn, v0 and the load G. The wall force is F = u + 2 z u'. A
-contact ends at u = 0 (`zero_penetration`, appendix B) or F = 0 (`no_tension`).
+Time t and penetration q are scaled: s = wn t and u = wn q/v0. The motion is u'' + 2 z u' + u = G,
+with the damping ratio z. `stages.contact_model` defines wn, v0 and the load G. The wall pushes with
+the force F = u + 2 z u'. By the rule `zero_penetration` (appendix B) a contact ends when u = 0, by
+`no_tension` when F = 0.
 """
 
 import math
@@ -22,7 +23,7 @@ class Exit(NamedTuple):
 
 
 class _Wave(NamedTuple):
-    """A decaying wave: level + exp(-z s) (a cos(w s) + b sin(w s)), with w = sqrt(1 - z^2)."""
+    """The function level + exp(-z s) (a cos(w s) + b sin(w s)) of s, with w = sqrt(1 - z^2)."""
 
     level: float
     a: float
@@ -35,7 +36,7 @@ class _Wave(NamedTuple):
         return self.level + decay * (self.a * math.cos(self.w * s) + self.b * math.sin(self.w * s))
 
     def slope(self):
-        """Return the derivative, a `_Wave`."""
+        """Return the derivative by s, which is a `_Wave` too."""
         a, b, z, w = self.a, self.b, self.z, self.w
         return _Wave(0.0, w * b - z * a, -z * b - w * a, z, w)
 
@@ -62,7 +63,7 @@ def _waves(restitution, load):
 
 
 def contact(restitution, load, rule) -> Exit:
-    """Return how a contact ends under one of the rules `exit_rules.EXIT_RULES`."""
+    """Return the `Exit` of a contact. `rule`, one of EXIT_RULES, says when the contact ends."""
     penetration, force = _waves(restitution, load)
     end = (penetration if rule == "zero_penetration" else force).first_fall()
     if end == math.inf:

@@ -16,7 +16,7 @@ RATE_OPERATIONS = 43
 
 @kernel
 def wall_at(p, z):
-    """Return the wall in contact at a position z = Z2: -1, 1, or 0 within the clearance."""
+    """Return the wall that the loose mass presses at Z2 = z: -1 or 1, or 0 if it presses none."""
     if z > p[CLEARANCE]:
         return 1
     if z < -p[CLEARANCE]:
@@ -26,19 +26,19 @@ def wall_at(p, z):
 
 @kernel
 def ahead(p, side, z):
-    """In flight (`side` 0) return the distance to the nearest wall, in contact the penetration."""
+    """Return the distance to the nearest wall in flight (`side` 0), the penetration in contact."""
     return p[CLEARANCE] - abs(z) if side == 0 else side * z - p[CLEARANCE]
 
 
 @kernel
 def rate(p, side, t, y):
-    """Return the rate at the time t. `side` is the wall in contact (-1 or 1), or 0 in flight."""
+    """Return the derivative of the state y by T. `side` is the wall in contact, or 0 in flight."""
     return rate_under(p, side, external_force(p, t), y)
 
 
 @kernel_only
 def rate_under(p, side, drive, y):
-    """Return the rate under the external force `drive`."""
+    """Return the derivative of the state y by T, under the external force `drive`."""
     x, v, z, w = y
     force = p[CONTACT_STIFFNESS] * (z - side * p[CLEARANCE]) + p[DASHPOT] * w if side != 0 else 0.0
     a = drive - p[DAMPING] * v - spring(p, x) - force
@@ -47,19 +47,19 @@ def rate_under(p, side, drive, y):
 
 @kernel_only
 def rate_by_position(p, drive, y):
-    """Return the rate. The loose mass is in contact if |Z2| exceeds the clearance."""
+    """Return the derivative of the state y. If |Z2| > d0, the loose mass presses a wall."""
     return rate_under(p, wall_at(p, y[2]), drive, y)
 
 
 @kernel
 def moved(y, h, k):
-    """Return the state after a step h from y at the constant rate k."""
+    """Return the state y + h k. The step is h, and k is the derivative of the state."""
     return y[0] + h * k[0], y[1] + h * k[1], y[2] + h * k[2], y[3] + h * k[3]
 
 
 @kernel_only
 def largest_within(x, v, x_end, v_end, h):
-    """Return max |Z1| at both ends of a step h and, if Z1' changes sign, at a turning point."""
+    """Estimate the largest |Z1| in a step h, from Z1 and Z1' at both ends of the step."""
     largest = max(abs(x), abs(x_end))
     if v * v_end < 0.0:
         largest = max(largest, abs(x + 0.5 * h * v * v / (v - v_end)))

@@ -12,20 +12,20 @@ SHORTEST = 1e-9  # smallest width of an interval that the search for crossings h
 
 
 def samples(coefficients, harmonics, count) -> np.ndarray:
-    """Return `count` equidistant values, first at s = 0; `count` must exceed 2 harmonics[-1]."""
+    """Return values of a series at `count` equally spaced s in one period, the first at s = 0."""
     spectrum = np.zeros(count // 2 + 1, complex)
     spectrum[harmonics] = coefficients
     return np.fft.irfft(spectrum, count) * count
 
 
 def value(coefficients, harmonics, angle, order=0) -> np.ndarray:
-    """Return a series (`order` 0) or its derivative of the given order, at each angle."""
+    """Return the values of a series at each angle s, or of its derivative of the given order."""
     weights = 2 * (1j * harmonics) ** order * coefficients
     return (np.exp(1j * np.multiply.outer(angle, harmonics)) @ weights).real
 
 
 def product_samples(harmonics, degree) -> int:
-    """Return how many samples of a product of `degree` series yield exact c_k at `harmonics`."""
+    """Return how many samples a product of `degree` series needs, so that its c_k are exact."""
     return next_fast_len((degree + 1) * int(harmonics[-1]) + 1, real=True)
 
 
@@ -42,16 +42,16 @@ def largest(coefficients, harmonics) -> float:
 
 
 def intervals(coefficients, harmonics, level) -> np.ndarray:
-    """Return a row (wall, begin, end) per interval: z > level (wall 1), z < -level (wall -1).
+    """Return the intervals of s in which |z| exceeds a level, as rows (wall, begin, end).
 
-    The search divides a period into cells. It halves a cell until a bound on z'' proves that z
-    crosses the level at most once in it. No interval wider than SHORTEST is missed.
+    `wall` is 1 if z > level, and -1 if z < -level. The search divides a period into cells. It
+    halves a cell until a bound on z'' proves that z crosses the level at most once in the cell. It
+    misses no interval wider than SHORTEST.
     """
     return np.concatenate([_beyond(coefficients, harmonics, level, wall) for wall in (1, -1)])
 
 
 def _beyond(coefficients, harmonics, level, wall):
-    """Return the rows of `intervals` for one wall."""
 
     def penetration(angle):
         return wall * value(coefficients, harmonics, angle) - level
@@ -71,7 +71,7 @@ def _beyond(coefficients, harmonics, level, wall):
 
 
 def _cells(function, coefficients, harmonics, ends, values):
-    """Return a row (begin, end) for each cell in which `function` changes sign, in order."""
+    """Return (begin, end) of small cells, in each of which `function` changes its sign once."""
     bound = 2 * np.sum(harmonics**2 * np.abs(coefficients))
     lower, upper, first, last = ends[:-1], ends[1:], values[:-1], values[1:]
     crossed = []
@@ -92,7 +92,7 @@ def _cells(function, coefficients, harmonics, ends, values):
 
 
 def indicator(rows, orders) -> np.ndarray:
-    """Return Fourier coefficients of a function: 1 in the intervals of `rows`, 0 elsewhere."""
+    """Return the Fourier coefficients of a function: 1 in the intervals `rows`, 0 elsewhere."""
     _, begin, end = rows.T[:, :, None]
     half = (end - begin) / 2
     turn = np.exp(-0.5j * orders * (begin + end))

@@ -12,7 +12,7 @@ SHORTEST = 1 / 32  # shortest step along a line between two points, divided by t
 def follow_line(
     correct, first, last, orbit, *, shortest=SHORTEST, extrapolating=False, behind=None
 ) -> Followed:
-    """Follow an orbit on a straight line from parameters `first` to `last`, by `follow`."""
+    """Follow an orbit while its parameters move on a straight line from `first` to `last`."""
 
     def correct_at(fraction, guess):
         return correct((1 - fraction) * first + fraction * last, guess)
@@ -30,7 +30,7 @@ def follow_line(
 
 
 class Grid:
-    """Orbits in the cells of the grid `points`, each followed from a neighbour along `axes`."""
+    """Orbits in the cells `points` of a grid, each followed from the orbit of a neighbour."""
 
     def __init__(self, points, correct, *, shortest=SHORTEST, axes=None, extrapolating=False):
         self.points, self.correct = points, correct
@@ -56,13 +56,13 @@ class Grid:
                     queue.append(target)
 
     def beside(self, cell, direction):
-        """Return the neighbour of a cell in a direction, or None beyond the grid."""
+        """Return the neighbour of a cell in a direction, or None if it lies outside the grid."""
         target = tuple(int(i) for i in np.add(cell, direction))
         inside = all(0 <= i < size for i, size in zip(target, self.shape, strict=True))
         return target if inside else None
 
     def follow(self, cell, direction) -> Followed:
-        """Follow the orbit of a cell to the neighbour in a direction, by `follow_line`."""
+        """Follow the orbit of a cell to the neighbouring cell in a direction."""
         return follow_line(
             self.correct,
             self.points[cell],

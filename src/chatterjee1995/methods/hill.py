@@ -6,24 +6,25 @@ import numpy as np
 from scipy.linalg import eigvals, lu_factor, lu_solve
 from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigs
 
-# For more than DENSE unknowns, `eigs` computes only the 4 * COPIES eigenvalues nearest 0.
+# With more than DENSE unknowns, only the 4 * COPIES eigenvalues nearest to 0 are computed.
 DENSE, COPIES = 100, 3
-# Each exponent is found several times, in copies 2 i W apart. The copy with -W < Im <= W is kept.
-# EDGE * W allows for rounding errors of Im at both limits.
+# Each exponent is found several times, in copies that differ by 2 i W. The copy with -W < Im <= W
+# is kept. EDGE * W is the largest rounding error of Im that does no harm.
 EDGE = 1e-2
 
 
 class Exponents(NamedTuple):
-    """Floquet exponents per unit of T, sorted by real part; all NaN if the status is not "found".
+    """Floquet exponents per unit of T, in the order of their real parts.
 
-    The status is "not_separated" if not exactly 2 values (4 with a damper) have -W < Im <= W.
+    There are 2 exponents, or 4 with a damper. The status is "not_separated" if another number of
+    values has -W < Im <= W. If the status is not "found", all exponents are NaN.
     """
 
     values: np.ndarray
     status: str
 
     def multipliers(self, time) -> np.ndarray:
-        """Return the Floquet multipliers exp(lambda time), for a time in units of T."""
+        """Return the Floquet multipliers exp(lambda time), where lambda are the exponents."""
         return np.exp(self.values * time)
 
 
@@ -37,7 +38,7 @@ def exponents(solution) -> Exponents:
         copies = _near_zero(*(balance.operator(orbit, contacts, power) for power in range(3)))
     except ArpackNoConvergence:
         return Exponents(unknown, "not_converged")
-    # Copies of an exponent differ by 2 i W: the linearised equations repeat after half a cycle.
+    # The linearised equations repeat after half a cycle. So copies of an exponent differ by 2 i W.
     height = copies.imag / balance.frequency
     inside = np.where(height > 1 - EDGE, copies.real + 1j * balance.frequency, copies)
     inside = inside[(height > -1 + EDGE) & (height < 1 + EDGE)]
@@ -47,7 +48,7 @@ def exponents(solution) -> Exponents:
 
 
 def _near_zero(stiffness, damping, inertia):
-    """Return eigenvalues lambda in (stiffness + lambda damping + lambda^2 inertia) p = 0."""
+    """Return eigenvalues lambda of (stiffness + lambda damping + lambda^2 inertia) p = 0."""
     size = len(stiffness)
     factors = lu_factor(stiffness, check_finite=False)
 

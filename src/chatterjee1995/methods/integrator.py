@@ -1,4 +1,4 @@
-"""The interface of integrators. Contact times and peaks are computed from the ends of steps."""
+"""The interface of integrators, and the results that are read off from the ends of steps."""
 
 from typing import ClassVar, NamedTuple
 
@@ -12,10 +12,11 @@ HALVINGS = 54  # number of bisections that locate a root to the accuracy of floa
 
 
 class Run(NamedTuple):
-    """A computed motion. `status` is "ended", "failed", or "capped" (too many evaluations).
+    """A computed motion. Its `state` is the last state, its `displacement` the largest |Z1|.
 
-    `state` is the last state, `displacement` max |Z1|. Contacts begin at `contact_times`. `peaks`
-    are |Z1| at `peak_times` (at turning points) or, with rigid walls, max |Z1| in each cycle.
+    `status` is "ended", "failed", or "capped" after too many evaluations. Contacts begin at the
+    times `contact_times`. `peaks` are the values of |Z1| at its turning points, at the times
+    `peak_times`. With rigid walls `peaks` are the largest |Z1| in each cycle.
     """
 
     status: str
@@ -41,10 +42,11 @@ class Integrator:
     number of steps in a cycle if all steps are equal (`fixed`), and otherwise a tolerance.
 
     Figures show integrators in the order of `place`. `compared` names the stages that use the
-    integrator, which defines one of the functions that REQUIRED lists for each of these stages.
-    `located` holds the values of `locate` to run in the stage `accuracy`. `tolerances` is one of
-    `labels.TOLERANCE_KEYS`. Runs of a `slow` integrator are shortened. `stability_limit` is the
-    largest step, times natural frequency, that keeps an undamped linear oscillation bounded.
+    integrator. For each of these stages the integrator defines one of the functions in REQUIRED.
+    `located` holds the values of `locate` with which the stage `accuracy` runs it. `tolerances` is
+    one of `labels.TOLERANCE_KEYS`. A `slow` integrator runs for fewer cycles. `stability_limit` is
+    the largest step, times natural frequency, with which an undamped linear oscillation stays
+    bounded.
     """
 
     REQUIRED: ClassVar = {
@@ -61,41 +63,43 @@ class Integrator:
     stability_limit = 0.0
 
     def label(self, locate):
-        """Return the label of runs: "NAME_located" if steps end at contacts, else "NAME_kink"."""
+        """Return the label of a run: "NAME_located" if steps end at contacts, else "NAME_kink"."""
         return f"{self.name}_{'located' if locate else 'kink'}"
 
     def steps(self, p, start, begin, periods, tolerance, locate, most_evaluations):
-        """Return status, operations, and times (n,) and states (n, 4) of start and step ends."""
+        """Return status and operations, and times and states at both ends of each step."""
         raise NotImplementedError
 
     def run(self, p, *given) -> Run:
-        """Return the `Run` that `steps` computes; `given` are the other arguments of `steps`."""
+        """Return the `Run` that `steps` computes. The arguments are those of `steps`."""
         status, work, times, ends = self.steps(p, *given)
         if status != "ended" or not np.isfinite(ends).all():
             return stopped("failed" if status == "ended" else status, work)
         return read_off(p, work, times, ends)
 
     def flight(self, p, state, end, resolution, time):
-        """Run from T = 0 without walls; return |Z2| at step ends and at `time`. None: failed."""
+        """Run without walls to T = `end`; return |Z2| at the ends of steps and at `time`."""
         raise NotImplementedError
 
     def touches(self, p, state, levels, resolution):
-        """Return whether contacts occur, by clearance in `levels`; None lets `flight` decide."""
+        """Return for each clearance in `levels` whether the motion has a contact.
+
+        By default return None. Then the values of |Z2| from `flight` decide this.
+        """
 
     def largest_displacements(self, p, start, begin, periods, steps) -> np.ndarray:
-        """Return max |Z1| in each cycle, with `steps` equal steps a cycle; NaN after divergence."""
+        """Return the largest |Z1| of each cycle, or NaN. A cycle is divided into `steps` steps."""
         raise NotImplementedError
 
 
 def read_off(p, work, times, ends):
-    """Return the `Run` through the states `ends` at `times`, joined by quintic polynomials."""
+    """Return the `Run` of a motion that is known at the ends of its steps."""
     at, peaks = _turning_points(p, times, ends)
     began = _beginnings(p, times, ends)
     return Run("ended", work, ends[-1], began, at, peaks, float(np.max(peaks)))
 
 
 def _beginnings(p, times, ends):
-    """Return the times at which contacts begin, in steps from the gap to a place beyond a wall."""
     place, distance = ends[:, 2], p[CLEARANCE] - np.abs(ends[:, 2])
     inside = (distance > 0) | ((distance == 0) & (place * ends[:, 3] < 0))
     steps = np.flatnonzero(inside[:-1] & ~inside[1:])
@@ -106,7 +110,6 @@ def _beginnings(p, times, ends):
 
 
 def _turning_points(p, times, ends):
-    """Return the times at which Z1' is 0 or the run begins or ends, and |Z1| at these times."""
     steps = np.flatnonzero(ends[:-1, 1] * ends[1:, 1] < 0)
     course = _quintics(p, times, ends, 0, steps)
     fraction = root(polyder(course), 0.0, 1.0)
@@ -119,7 +122,7 @@ def _turning_points(p, times, ends):
 
 
 def _quintics(p, times, ends, index, steps):
-    """Return polynomials (6, m) of one state component in m steps, over the fraction of a step."""
+    """Return the polynomials (as columns) that interpolate a component of the state in `steps`."""
     rates = [
         np.array([rate(p, wall_at(p, ends[k, 2]), times[k], tuple(ends[k])) for k in at])
         for at in (steps, steps + 1)
@@ -135,7 +138,7 @@ def _quintics(p, times, ends, index, steps):
 
 
 def root(coefficients, low, high):
-    """Return a root of each polynomial (a column), whose signs at `low` and `high` differ."""
+    """Return a root of each polynomial between `low` and `high`. Columns hold the coefficients."""
     sign = np.sign(polyval(low, coefficients, tensor=False))
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)

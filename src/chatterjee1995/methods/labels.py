@@ -2,7 +2,8 @@
 
 from chatterjee1995.methods.integrators import integrators, runs_of_accuracy
 
-# ERRORS: quantities whose errors `accuracy` computes. STATISTICS: averages of chaotic motions.
+# ERRORS: quantities whose errors the stage `accuracy` computes, if a motion is not chaotic.
+# STATISTICS: averages whose errors the stage computes, if a motion is chaotic.
 ERRORS = ("amplitude", "state", "contact_time", "contacts")
 STATISTICS = ("contact_rate", "displacement", "exponent")
 
@@ -22,7 +23,7 @@ TOLERANCE_KEYS = ("taylor", "merson", "scipy")
 
 
 def method_in_words(label) -> str:
-    """Return the title of a model, integrator or run by its label; an unknown label itself."""
+    """Return the title of the method with this label, or the label if it has no title."""
     if label in MODELS:
         return MODELS[label]
     if label in integrators():
@@ -37,5 +38,5 @@ def method_in_words(label) -> str:
 
 
 def colour_of(name) -> str:
-    """Return matplotlib's colour C0, C1, ... of an integrator of the stage `accuracy`."""
+    """Return the colour (C0, C1, ...) in which figures draw an integrator."""
     return f"C{list(integrators('accuracy')).index(name)}"

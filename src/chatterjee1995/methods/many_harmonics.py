@@ -18,7 +18,7 @@ from impact_damper.theory.free_oscillator import main_solutions
 
 @dataclass(frozen=True)
 class Balance:
-    """Equations of a symmetric motion, Z(T + pi/W) = -Z(T), which has only odd harmonics."""
+    """Equations of harmonic balance for a symmetric motion, which has odd harmonics only."""
 
     oscillator: object
     damper: object
@@ -36,7 +36,7 @@ class Balance:
 
     @property
     def harmonics(self) -> np.ndarray:
-        """Harmonics k in the balance: 1, 3, ... `highest`; shape (m,)."""
+        """The harmonics 1, 3, 5, ... up to `highest`."""
         return np.arange(1, self.highest + 1, 2)
 
     @cached_property
@@ -46,31 +46,31 @@ class Balance:
 
     @property
     def rates(self) -> np.ndarray:
-        """Factors i k W by which differentiation multiplies the coefficients, shape (m,)."""
+        """Factors i k W by which d/dT multiplies the coefficients of the harmonics k."""
         return 1j * self.harmonics * self.frequency
 
     @property
     def unknowns(self) -> int:
-        """Number of real unknowns."""
+        """Number of unknowns, the real and imaginary parts of all coefficients."""
         return len(self.harmonics) * (2 if self.damper is None else 4)
 
     def to_real(self, coefficients) -> np.ndarray:
-        """Return coefficients (1 or 2, m) in a real vector: Re Z1, Im Z1 (and Re Z2, Im Z2)."""
+        """Return coefficients in a real vector: Re Z1, Im Z1, and with a damper Re Z2, Im Z2."""
         return np.hstack([coefficients.real, coefficients.imag]).ravel()
 
     def to_complex(self, unknowns) -> np.ndarray:
-        """Return the complex coefficients (1 or 2, m) in a vector from `to_real`."""
+        """Return the coefficients that `to_real` has put into a real vector."""
         parts = unknowns.reshape(-1, 2, len(self.harmonics))
         return parts[:, 0] + 1j * parts[:, 1]
 
     def contacts(self, coefficients) -> np.ndarray:
-        """Return a row (wall, begin, end) for each contact in a cycle; begin and end are phases."""
+        """Return a row (wall, begin, end) for each contact in a cycle. Begin and end are W T."""
         if self.damper is None:
             return np.empty((0, 3))
         return fourier.intervals(coefficients[1], self.harmonics, self.damper.clearance)
 
     def residual(self, coefficients, rows) -> np.ndarray:
-        """Return left minus right side of (3), (4), (20), (21). `contacts` returns `rows`."""
+        """Return the left minus the right sides of (3), (4), (20), (21). `rows` are contacts."""
         k, rate, own = self.harmonics, self.rates, self.oscillator
         first = coefficients[0]
         count = fourier.product_samples(k, SPRING_POWER)
@@ -92,7 +92,7 @@ class Balance:
 
     @property
     def stiffness(self) -> np.ndarray:
-        """Dynamic stiffness r1 + i k W c of the contact spring and dashpot, shape (m,)."""
+        """Dynamic stiffness r1 + i k W c of spring and dashpot in a wall, for each harmonic k."""
         return self.damper.contact_stiffness + self.rates * self.damper.dashpot
 
     def operator(self, coefficients, rows, power=0) -> np.ndarray:
@@ -121,12 +121,14 @@ class Balance:
         return np.block([[first, push], [-free, free + push / self.damper.mass_ratio]])
 
     def _contact_indicator(self, rows):
-        """Return the Fourier coefficients of the function that is 1 in contact and 0 elsewhere."""
         return fourier.indicator(rows, np.arange(2 * self.highest + 1))
 
 
 def _convolution(coefficients, harmonics):
-    """Return matrices A and B for which A z + B conj(z) is z times the series `coefficients`."""
+    """Return matrices A and B that multiply a series by the series with these `coefficients`.
+
+    If z are the coefficients of a series at `harmonics`, those of the product are A z + B conj(z).
+    """
     two_sided = np.concatenate([coefficients[:0:-1].conj(), coefficients])
     zero = len(coefficients) - 1
     column = harmonics[:, None]
@@ -134,18 +136,19 @@ def _convolution(coefficients, harmonics):
 
 
 def _real(by_value, by_conjugate):
-    """Return the function by_value z + by_conjugate conj(z) as a real matrix for (Re z, Im z)."""
+    """Return the map of z to by_value z + by_conjugate conj(z) as a matrix for (Re z, Im z)."""
     total, difference = by_value + by_conjugate, by_value - by_conjugate
     return np.block([[total.real, -difference.imag], [total.imag, difference.real]])
 
 
 # TOLERANCE: Newton's method has converged if max |change| <= TOLERANCE * max |coefficient|.
-# ITERATIONS: largest number of steps. LEAST_DAMPING: smallest factor that shortens a step.
+# ITERATIONS: largest number of steps of Newton's method.
+# LEAST_DAMPING: smallest factor by which such a step is shortened.
 TOLERANCE, ITERATIONS, LEAST_DAMPING = 1e-11, 40, 1e-4
 
 
 class Solution(NamedTuple):
-    """Result of Newton's method: the coefficients of Z1 and, with a damper, of Z2; (1 or 2, m).
+    """Result of Newton's method. Row 0 of `coefficients` belongs to Z1, row 1 (if any) to Z2.
 
     The status is "converged", "iteration_limit", or "stalled" if even the shortest step fails.
     """
@@ -190,7 +193,7 @@ def solve(balance, start) -> Solution:
 
 
 def single_term(oscillator, damper, frequency) -> np.ndarray:
-    """Return coefficients of a solution of (7): the smallest or, without a damper, the largest."""
+    """Return coefficients of the smallest solution of (7), without a damper of the largest."""
     if damper is None:
         free = main_solutions(oscillator, frequency)
         return free.amplitude[-1:, None] * np.exp(1j * free.phase[-1]) / 2
@@ -204,7 +207,7 @@ def single_term(oscillator, damper, frequency) -> np.ndarray:
 
 
 def refine(balances, start) -> list:
-    """Solve each balance from the last coefficients that converged, the first from `start`."""
+    """Solve each balance from the last solution that converged, the first from `start`."""
     solutions = []
     for balance in balances:
         solutions.append(solve(balance, start))

@@ -45,7 +45,7 @@ def missed_contacts(
 ):
     """Return a dataset with the numbers of contacts near grazing that integrators find and miss.
 
-    An integrator with equal steps uses `steps`, numbers of steps per cycle, not `tolerances`.
+    Integrators with equal steps use `steps`, the numbers of steps in a cycle, not `tolerances`.
     """
     depths = read_increasing(UNITLESS, "depths", depths, above=0.0)
     tolerances = read_increasing(UNITLESS, "tolerances", tolerances, **METHOD_TOLERANCE_RANGE)
@@ -68,7 +68,7 @@ def missed_contacts(
 
 
 def counts(integrator, p, passages, depths, resolution):
-    """Return `passage_count` (depth, contact_outcome), `spurious_count` and `motion_error`."""
+    """Return `passage_count`, `spurious_count` and `motion_error` of one integrator."""
     end = 2 * math.pi / p[FREQUENCY]
     touching = np.zeros((len(depths), len(OUTCOMES)), int)
     spurious = np.zeros(len(depths), int)
@@ -92,7 +92,6 @@ def counts(integrator, p, passages, depths, resolution):
 
 
 def _count_table(p, passages, depths, tolerances, steps):
-    """Return the counts and errors of each integrator at each tolerance or number of steps."""
     methods = integrators("missed_contacts").values()
     found = [
         counts(method, p, passages, depths, resolution)
@@ -111,9 +110,9 @@ def _count_table(p, passages, depths, tolerances, steps):
 
 
 def _expected(passages, depths, steps, period):
-    """Return expected shares (steps, depth) of contacts that begin and end within one step.
+    """Return the expected share of contacts that begin and end within one step, by step and depth.
 
-    A contact lasts b = 2 sqrt(2 depth/|Z2''|), and fits in a step h with chance max(0, 1 - b/h).
+    A contact lasts b = 2 sqrt(2 depth/|Z2''|). A step h contains it with chance max(0, 1 - b/h).
     """
     curvatures = np.array([passage.curvature for passage in passages])
     beyond = 2 * np.sqrt(2 * depths / curvatures[:, None])

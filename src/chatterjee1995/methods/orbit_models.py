@@ -1,4 +1,4 @@
-"""Models of motions: rigid walls, harmonic balance, shooting. `work` is a number of operations."""
+"""Models of motions: rigid walls, harmonic balance, shooting. `work` counts operations."""
 
 import math
 from dataclasses import replace
@@ -33,13 +33,13 @@ from impact_damper.orbits.shooting import find_orbit
 from impact_damper.theory import single_harmonic
 from impact_damper.theory.free_oscillator import free_solutions
 
-# Number of operations that find all solutions of (7), FULL_WORK, or of (14), RIGID_WORK.
+# Numbers of operations: FULL_WORK to find all solutions of (7), RIGID_WORK all roots of (14).
 FULL_WORK, RIGID_WORK = 100 * 130 + 10 * 32**3, 10 * (6**3 + 5**3) + 6 * 10 * 12
 REACH = 10.0  # largest difference of a rigid orbit's state from the first guess, in each component
 
 
 class Model(NamedTuple):
-    """A steady motion: state at W T = pi/2, values of W T at which contacts begin, max |Z1|."""
+    """A steady motion: state at W T = pi/2, phases W T at which contacts begin, and max |Z1|."""
 
     status: str
     operations: float
@@ -49,7 +49,7 @@ class Model(NamedTuple):
 
 
 def rigid(p, restitution, start, t, periods, tolerance):
-    """Return the `Run` from `start` at t with rigid walls. `peaks` holds max |Z1| of each cycle."""
+    """Run from `start` at t with rigid walls; return a `Run`. `peaks` is max |Z1| of each cycle."""
     p = without_dashpot(p)
     y, none, work = start.copy(), np.empty((0, 4)), workspace()
     period, counts = 2 * math.pi / p[FREQUENCY], [0, 0, 0]
@@ -74,12 +74,12 @@ def rigid(p, restitution, start, t, periods, tolerance):
 
 
 def without(status, work=0.0):
-    """Return a `Model` without a motion; the status says why."""
+    """Return the `Model` of a method that finds no motion. The status says why."""
     return Model(status, work, np.full(4, np.nan), np.empty(0), np.nan)
 
 
 def of_coefficients(balance, coefficients, work):
-    """Return the `Model` of the harmonic-balance solution with given Fourier coefficients."""
+    """Return the `Model` of a solution of harmonic balance with these Fourier coefficients."""
     state = state_of(Solution(balance, coefficients, "", 0))
     rows = balance.contacts(coefficients)
     phases = rows[:, 1] if balance.damper is not None else np.empty(0)
@@ -88,7 +88,7 @@ def of_coefficients(balance, coefficients, work):
 
 
 def rigid_balance(oscillator, damper, frequency, state):
-    """Return the `Model` from the solution of (13), (14) nearest to `state`. It needs e = 1."""
+    """Return the solution of (13) and (14) nearest to `state`, as a `Model`. It needs e = 1."""
     if damper is None or damper.restitution != 1:
         return without("not_applicable")
     roots = single_harmonic.rigid_solutions(oscillator, damper, frequency)
@@ -104,7 +104,7 @@ def rigid_balance(oscillator, damper, frequency, state):
 
 
 def full_balance(oscillator, damper, frequency, state):
-    """Return the `Model` from the solution of (7) nearest to `state`. A damper needs e = 1."""
+    """Return the solution of (7) nearest to `state`, as a `Model`. A damper needs e = 1."""
     if damper is not None and damper.restitution != 1:
         return without("not_applicable")
     coefficients, work = nearest_term(oscillator, damper, frequency, state)
@@ -114,7 +114,7 @@ def full_balance(oscillator, damper, frequency, state):
 
 
 def nearest_term(oscillator, damper, frequency, state):
-    """Return the Fourier coefficients of the solution of (7) nearest to `state`, and the work."""
+    """Return the coefficients of the solution of (7) nearest to `state`, and the operations."""
     if damper is None:
         work = 2 * 10 * 3**3
         solutions = free_solutions(oscillator, frequency)
@@ -137,7 +137,7 @@ def nearest_term(oscillator, damper, frequency, state):
 
 
 def many_harmonics(oscillator, damper, frequency, state, highest):
-    """Return a dict of `Model` by highest harmonic 3, 7, 15, ...; empty if (7) has no solution."""
+    """Return a dict: highest harmonic (3, 7, 15, ...) -> `Model`; empty if (7) has no solution."""
     coefficients, work = nearest_term(oscillator, damper, frequency, state)
     models = {}
     if coefficients is None:
@@ -164,7 +164,7 @@ def newton_work(balance):
 
 
 def rigid_impacts(oscillator, damper, frequency, start):
-    """Return a dict of the models "rigid" and "rigid_mended" (see `mended_orbit`) near `start`."""
+    """Return the models "rigid" and "rigid_mended" (corrected walls) near the model `start`."""
     if damper is None:
         return dict.fromkeys(("rigid", "rigid_mended"), without("not_applicable"))
     system = oscillator, damper, frequency
@@ -177,7 +177,7 @@ def rigid_impacts(oscillator, damper, frequency, start):
             continue
         given = found.p, found.restitution, found.state, strobe_time(found.p)
         run = rigid(*given, 1, POLISH_TOLERANCE)
-        # Operations of one call of `rigid_map`, which also integrates variational equations.
+        # `each`: operations of a call of `rigid_map`, which also integrates variational equations.
         each = each or run.operations / step_work(FLIGHT) * step_work(FLIGHT, tangents=True)
         work += found.maps * each
         phases = frequency * run.contact_times % (2 * math.pi)

@@ -15,7 +15,7 @@ TOLERANCE = 1e-15  # tolerance of the Taylor series
 
 
 class Passage(NamedTuple):
-    """A cycle without walls from `state` at T = 0; time, |Z2| and |Z2''| where |Z2| is largest."""
+    """A motion without walls over a cycle. At `time` |Z2| is largest, and |Z2''| is `curvature`."""
 
     state: np.ndarray
     time: float
@@ -25,7 +25,7 @@ class Passage(NamedTuple):
 
 @kernel
 def largest_of_flight(p, y, t, end):
-    """Integrate y in place from t to end; return T, |Z2| and |Z2''| where |Z2| is largest."""
+    """Integrate y in place from t to `end`. Return T, |Z2| and |Z2''| where |Z2| is largest."""
     work = workspace()
     flight = np.int64(0)  # not the literal 0, for which numba would compile `step` again
     c = np.zeros(FLIGHT_ORDER + 1)
@@ -68,9 +68,9 @@ def without_walls(p):
 
 
 def draw_passages(p, count, radius, deepest, seed) -> list:
-    """Return `count` passages for contact depths up to `deepest`, from random states in a ball.
+    """Return `count` passages from random states in a ball, for contacts up to `deepest` deep.
 
-    A passage is kept if max |Z2| exceeds 2 * deepest and exceeds |Z2| at both ends by `deepest`.
+    A passage is kept if max |Z2| exceeds 2 * deepest, and exceeds |Z2| at both ends by `deepest`.
     """
     random = np.random.default_rng(seed)
     flying = without_walls(p)

@@ -1,7 +1,8 @@
 """The quiet orbit, stable or not, on a grid of parameters, and rules for the optimum clearance.
 
-A map that integrates half a cycle and then changes the state's sign leaves the orbit's state as it
-is. The map's derivative is called the root, since its square is the derivative after a cycle.
+After half a cycle a symmetric orbit is in its first state with the opposite sign. So it is a fixed
+point of the map "integrate half a cycle, then change the sign". The derivative of this map is
+called the root, since its square is the derivative of the map of a full cycle.
 """
 
 from typing import NamedTuple
@@ -18,7 +19,7 @@ CONTACTS = 2  # number of contacts of a quiet orbit in a cycle
 
 
 class CompliantOrbit(NamedTuple):
-    """A symmetric orbit, 2 contacts a cycle: state at W T = pi/2, largest multiplier, max |Z1|."""
+    """A symmetric orbit with 2 contacts a cycle. `state` is its state at W T = pi/2."""
 
     parameters: np.ndarray
     state: np.ndarray
@@ -27,7 +28,7 @@ class CompliantOrbit(NamedTuple):
 
 
 def compliant_orbit(p, guess, reach, *, tolerance=POLISH_TOLERANCE, asymmetry=SYMMETRIC):
-    """Return a pair: `CompliantOrbit` within `reach` of the state `guess` (or None), and status."""
+    """Return the `CompliantOrbit` near the state `guess`, or None, and a status."""
     state = np.array(guess, float)
     converged, _, multiplier = polish(p, state, 1, reach, tolerance)
     if not converged:
@@ -38,20 +39,21 @@ def compliant_orbit(p, guess, reach, *, tolerance=POLISH_TOLERANCE, asymmetry=SY
     return CompliantOrbit(p, state, multiplier, float(record["maximum_displacement"])), "found"
 
 
-# Phase W T of all states in `find_quiet_orbit`. Contacts take place at other phases.
+# Phase W T of the states that `find_quiet_orbit` uses. Contacts take place at other phases.
 PHASE = 0.75 * np.pi
 REACH = 0.05  # largest distance of the state of an orbit from the guess
 SHORTEST = 2.0**-12  # shortest step between two cells, divided by the distance of the cells
-# A row ends at a fold if extrapolation finds one within NEAR * SHORTEST columns of the last orbit.
+# The orbits in a row of the grid end at a fold if extrapolation finds a fold within NEAR * SHORTEST
+# columns of the last orbit.
 NEAR = 4
 
 
 class QuietOrbits(NamedTuple):
-    """Quiet orbits on a grid, NaN in cells without one; shape (rows, columns).
+    """Quiet orbits on a grid. Arrays (rows, columns) are NaN in cells without an orbit.
 
-    multiplier: The root's eigenvalue of largest modulus (Im >= 0). Its square is a multiplier.
+    multiplier: Eigenvalue of largest modulus of the root. Its square is a Floquet multiplier.
     displacement, harmonic: max |Z1|, and the amplitude of the first harmonic of Z1.
-    end: Column numbers, with a fraction, at which a row's orbits begin and end; shape (rows, 2).
+    end: Columns, with a fraction, between which a row of the grid has orbits; shape (rows, 2).
     end_event: map_ends (edge of the grid), no_orbit, fold, contacts_change or not_converged.
     """
 
@@ -63,9 +65,10 @@ class QuietOrbits(NamedTuple):
 
 
 def straight_flight_end(oscillator, clearance, restitution) -> float:
-    """Return W at the fold of quiet orbits, by the theory of straight flight; inf without a fold.
+    """Return W at the fold where quiet orbits end, by the theory of straight flight.
 
-    At the fold W^2 d0/f = sqrt(1 + k^2), with k = (pi/2) (1 + e)/(1 - e) and f = F + U W^2.
+    At this fold W^2 d0/f = sqrt(1 + k^2), with k = (pi/2) (1 + e)/(1 - e) and f = F + U W^2. The
+    result is infinite if there is no fold.
     """
     if restitution == 1:
         return np.inf
@@ -77,7 +80,7 @@ def straight_flight_end(oscillator, clearance, restitution) -> float:
 
 
 def follow_quiet_orbits(parameters, states) -> QuietOrbits:
-    """Return the quiet orbits on a grid, followed from the cells in which `states` is not NaN."""
+    """Return the quiet orbits on a grid, followed from the cells with known `states` (not NaN)."""
     grid = Grid(parameters, find_quiet_orbit, shortest=SHORTEST, axes=(1, 0), extrapolating=True)
     for cell in zip(*np.nonzero(np.isfinite(states[..., 0])), strict=True):
         at_strobe = shoot(parameters[cell], states[cell], 1, STROBE)
@@ -97,7 +100,7 @@ def follow_quiet_orbits(parameters, states) -> QuietOrbits:
 
 
 def find_quiet_orbit(p, guess):
-    """Return a pair: quiet orbit (or None) near the state `guess` at W T = PHASE, and a status."""
+    """Return the quiet orbit near the state `guess` at W T = PHASE, or None, and a status."""
     orbit = newton(shoot(p, guess, 1, PHASE, symmetric=True), REACH)
     if not orbit.converged:
         return None, "not_converged"
@@ -105,14 +108,12 @@ def find_quiet_orbit(p, guess):
 
 
 def _dominant_root(orbit):
-    """Return the root's eigenvalue of largest modulus; of a complex pair, the one with Im > 0."""
     values = np.linalg.eigvals(orbit.matrix)
     value = values[np.argmax(np.abs(values))]
     return complex(value.real, abs(value.imag))
 
 
 def _row_ends(grid, row):
-    """Return a row of `QuietOrbits.end`, and of `end_event`."""
     columns = [column for first, column in grid.orbits if first == row]
     if not columns:
         return [np.nan] * 2, ["no_orbit"] * 2
@@ -127,11 +128,8 @@ def _row_ends(grid, row):
 
 
 def _end(followed):
-    """Return where the orbits end, as a fraction of the way to the next cell, and the event.
-
-    Near a fold, det(1 - root) is proportional to the square root of the distance to the fold.
-    """
-    # This step failed in `spread`. It can succeed now that the opposite neighbour is known too.
+    """Return the fraction of the way to the next cell at which orbits end, and the event."""
+    # This step to the next cell failed in `spread`. It can succeed now that more cells are known.
     if followed.arrived:
         return 0.0, "not_converged"
     before, fraction = followed.values
@@ -143,11 +141,13 @@ def _end(followed):
     return fraction, followed.status
 
 
-# The ratio rm W^2 d0/f by rule (18) if the first harmonic of Z2 replaces d0. This harmonic is
-# 8 d0/pi^2 if the primary mass rests and the loose mass flies to and fro at constant speed.
+# The ratio rm W^2 d0/f, where f is the forcing amplitude, at which rule (18) holds with the first
+# harmonic of Z2 in place of d0. This harmonic is 8 d0/pi^2 if the primary mass rests and the loose
+# mass flies to and fro at constant speed.
 FIRST_HARMONIC_RATIO = np.pi**2 / 8
-# Impulse q for which |Z1| is equally large at an impact and at a turning point, with the phase phi
-# (`Flight`). For e = 1, h = 0, no spring: q - 1 = cos(phi) - q + 2 q phi/pi, sin(phi) = 2 q/pi.
+# IMPULSE is the `impulse` q of a `Flight` for which |Z1| is equally large at an impact and at a
+# turning point. TURN is the phase phi of this turning point. For e = 1, without damping and spring,
+# they solve q - 1 = cos(phi) - q + 2 q phi/pi and sin(phi) = 2 q/pi.
 IMPULSE, TURN = 1.1382168528663819, 0.8104702831754177
 # CRITERIA: quantities of Z1. An optimum clearance minimises one of these quantities.
 # RULES: rules for the optimum clearance, see `rule_ratios`.
@@ -156,7 +156,7 @@ RULES = ("balance", "gap_harmonic", "straight_flight", "elastic", "flight")
 
 
 def elastic_ratios(flight) -> tuple[float, float]:
-    """Return the optimum rm W^2 d0/f of a `Flight` by both CRITERIA, linear in W/wn and h/W."""
+    """Return the optimum rm W^2 d0/f of a `Flight` for each of CRITERIA; NaN if e < 1."""
     if flight.restitution != 1:
         return np.nan, np.nan
     contact, damping, whole = flight.contact, flight.damping, 1 + flight.mass_ratio
@@ -170,9 +170,10 @@ def elastic_ratios(flight) -> tuple[float, float]:
 def least_harmonic_ratio(flight) -> float:
     """Return rm W^2 d0/f at which the first harmonic of Z1 in a `Flight` is smallest.
 
-    Impacts have an impulse q and the phase u - n after the maximum of the forcing: sin(u) = l q,
-    l = `loss`, n = `forced_lag` + `setback`. The first harmonic of forcing and impacts together is
-    1 - c q exp(i (n - u)), c = 8/pi^2. It is smallest if tan(2 u) = 2 l cos(n)/(c - 2 l sin(n)).
+    An impact has the impulse q and comes at the phase u - n after the maximum of the forcing. Here
+    sin(u) = l q, l is `loss`, and n is `forced_lag` + `setback`. The first harmonic of forcing and
+    impacts together is 1 - c q exp(i (n - u)) with c = 8/pi^2. It is smallest if
+    tan(2 u) = 2 l cos(n)/(c - 2 l sin(n)).
     """
     factor = 8 / np.pi**2
     loss = flight.loss
@@ -187,8 +188,8 @@ def rule_ratios(oscillator, damper, frequency):
     """Return the optimum rm W^2 d0/f: a row for each of CRITERIA, a column for each of RULES.
 
     `balance` is rule (18). `gap_harmonic` is FIRST_HARMONIC_RATIO. `flight` is the optimum of the
-    damper's `Flight`. `straight_flight` is the optimum of a `Flight` between rigid walls, without
-    damping and linear stiffness of the machine. `elastic` is `elastic_ratios`, NaN if e < 1.
+    damper's `Flight`. `straight_flight` is the optimum of a `Flight` between rigid walls, for a
+    machine without damping and linear stiffness. `elastic` is `elastic_ratios`, and NaN if e < 1.
     """
     flight = flight_of(oscillator, damper, frequency)
     straight = Flight(damper.mass_ratio, damper.restitution)

@@ -73,7 +73,7 @@ def rigid_map(p, restitution, y, tolerance):
     impacts, speed, first, largest = 0, math.inf, (math.nan, math.nan), abs(y[0])
     while t < end and impacts < MOST_IMPACTS:
         length, side = step_with_tangents(p, state, tangents, flight, t, end - t, tolerance, work)
-        # |Z1| can also be largest at an impact, where Z1' jumps.
+        # At an impact Z1' jumps, so |Z1| can be largest there too.
         largest = max(extremum(work[X:], FLIGHT_ORDER, length, largest), abs(state[0]))
         t = end if length >= end - t else t + length
         if side != 0:
@@ -86,14 +86,14 @@ def rigid_map(p, restitution, y, tolerance):
 
 
 def without_dashpot(p):
-    """Return a copy of packed parameters without the dashpot of the walls, for the rigid model."""
+    """Return a copy of packed parameters in which the walls have no dashpot."""
     p = p.copy()
     p[DASHPOT] = 0.0
     return p
 
 
 class RigidOrbit(NamedTuple):
-    """A symmetric orbit with 2 impacts a cycle; `speed`, `acceleration`: just before an impact."""
+    """A symmetric orbit with 2 impacts a cycle. `speed` is |Z2'| just before an impact."""
 
     state: np.ndarray
     multiplier: complex
@@ -106,16 +106,17 @@ class RigidOrbit(NamedTuple):
 
 
 def rigid_orbit(oscillator, damper, frequency, guess, reach):
-    """Return a pair: the `RigidOrbit` within `reach` of the state `guess` (or None), and a status.
+    """Return the `RigidOrbit` near the state `guess`, or None, and a status.
 
-    Status: "found"; "not_followed" if Newton's method fails or meets no impact; "other_contacts" if
-    there are not two symmetric impacts; "chatter" after MOST_IMPACTS impacts in a cycle.
+    The status is "found"; "not_followed" if Newton's method fails or meets no impact;
+    "other_contacts" if there are not two symmetric impacts; "chatter" after MOST_IMPACTS impacts in
+    a cycle.
     """
     return _solve(pack(oscillator, damper, frequency), damper.restitution, guess, reach)
 
 
 def mended_orbit(oscillator, damper, frequency, orbit, reach):
-    """Return what `rigid_orbit` returns, but for corrected walls, which imitate compliant walls."""
+    """Return the `RigidOrbit` with walls corrected to imitate compliant ones, and a status."""
     e, h, v, before = damper.restitution, oscillator.damping, orbit.speed, orbit.acceleration
     reduced = damper.mass_ratio / (1 + damper.mass_ratio)
     z, natural = damping_ratio(e), damper.contact_frequency
@@ -132,7 +133,6 @@ def mended_orbit(oscillator, damper, frequency, orbit, reach):
 
 
 def _solve(p, restitution, guess, reach):
-    """Return what `rigid_orbit` returns, but for packed parameters and any restitution."""
     p = without_dashpot(p)
     restitution = float(restitution)  # numba would compile the map a second time for an int
     y = np.array(guess, float)

@@ -1,4 +1,4 @@
-"""Largest steps with which methods of equal steps compute quiet motions well, for each r1."""
+"""Largest steps with which methods with equal steps still compute quiet motions, for each r1."""
 
 import itertools
 import math
@@ -38,7 +38,8 @@ contact_frequency | contact_stiffness | | omega_c | natural frequency of an unda
 )
 
 ACCURACIES = (0.01, 0.1)  # allowed relative error of max |Z1| in each cycle
-# FACTOR: largest ratio of successive r1. REACH: largest change of an orbit's state between them.
+# An orbit is followed from one r1 to the next. FACTOR is the largest ratio of the two values of r1,
+# and REACH the largest change of the orbit's state.
 FACTOR, REACH = 10.0**0.0625, 0.2
 EXACT = 1e-13  # tolerance of the exact orbits, with which runs are compared
 CONFIRMED = 4  # the motion must be kept by at least this number of the smallest tested steps
@@ -77,7 +78,7 @@ def orbits_over_stiffness(oscillator, damper, frequency, stiffnesses) -> list:
 
 
 def _in_steps(own, targets):
-    """Return `own`, the targets, and values between, with ratios of neighbours up to FACTOR."""
+    """Return `own` and the targets, and values between, so that no ratio exceeds FACTOR."""
     cells = [np.array([own])]
     for before, target in itertools.pairwise([own, *targets]):
         count = max(math.ceil(abs(math.log(target / before)) / math.log(FACTOR)), 1)
@@ -86,7 +87,7 @@ def _in_steps(own, targets):
 
 
 def _largest_step(held, tested, steps):
-    """Return the largest tested step that, like all smaller ones, is accurate (`held`), or NaN."""
+    """Return the largest step that is accurate like all smaller tested ones, or NaN."""
     held, steps = held[tested], steps[tested]
     failing = np.flatnonzero(~held)
     first = failing[-1] + 1 if len(failing) else 0
@@ -94,7 +95,7 @@ def _largest_step(held, tested, steps):
 
 
 def _slope(stiffnesses, steps):
-    """Fit a line to log(1/step) over log r1, for r1 >= STIFF; return slope and error, or NaN."""
+    """Fit a line to log(1/step) over log r1, for r1 >= STIFF. Return its slope and the error."""
     use = np.isfinite(steps) & (stiffnesses >= STIFF)
     if use.sum() < 3:
         return np.nan, np.nan
@@ -103,7 +104,7 @@ def _slope(stiffnesses, steps):
 
 
 def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, most_steps, periods):
-    """Return a dataset of stable steps. `scaled_steps`: steps times contact frequency wn."""
+    """Return a dataset of stable steps. `scaled_steps` are the steps to test, times wn."""
     stiffnesses = read_increasing(UNITLESS, "stiffnesses", stiffnesses, **STIFFNESS_RANGE)
     scaled = read_increasing(UNITLESS, "scaled_steps", scaled_steps, above=0)
     scaled = scaled[::-1]
@@ -126,7 +127,7 @@ def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, mo
 
 
 def _deviations(method, orbits, counts, tested, periods):
-    """Return the largest relative deviation of max |Z1|, by (orbit, step); NaN if not tested."""
+    """Return the largest relative error of max |Z1| in a cycle, for each orbit and tested step."""
     deviations = np.full(counts.shape, np.nan)
     for i, orbit in enumerate(orbits):
         if orbit is None:
@@ -140,7 +141,6 @@ def _deviations(method, orbits, counts, tested, periods):
 
 
 def _step_data(deviations, tested, sizes, stiffnesses):
-    """Return a dict: the largest step for each accuracy, and the slopes from `_slope`."""
     shape = len(deviations), len(stiffnesses), len(ACCURACIES)
     stable = np.empty(shape)
     for m, i, k in np.ndindex(shape):

@@ -81,7 +81,7 @@ class DesignRules(system.WithOscillator):
 
 
 def axis(name):
-    """Return the type of a key for a grid axis: one number, or a range with a key `points`."""
+    """Return the type of a key that gives a grid axis: a number, or a range with a key `points`."""
     several = system.range_of(system.PARAMETERS[name], points=True)
     return number_or_range(
         several, f"{system.MEANINGS[name]}, one value or an even range", **system.BOUNDS[name]
@@ -134,7 +134,7 @@ def points(given) -> int:
 
 
 def even(given) -> dict:
-    """Return the points of an axis as a parameter of a job. `given` is a number or a range."""
+    """Return a dict such as {"linspace": [1, 2, 5]}, which a job turns into points of an axis."""
     return given.even() if hasattr(given, "even") else {"linspace": [given, given, 1]}
 
 

@@ -66,7 +66,7 @@ class Search(Section):
     life_periods: count("forcing cycles of the runs `life_runs`", **bounds.LIFETIME_RANGE)
 
     def job(self, config, starts) -> dict:
-        """Return the parameters of a search from `starts` random states."""
+        """Return the parameters of a job that searches for motions from `starts` random states."""
         return {"starts": starts, "radius": self.radius, "seed": config.seed}
 
 
@@ -89,7 +89,7 @@ class Settling(Section):
     )
 
     def job(self) -> dict:
-        """Return the settings as a parameter of a job."""
+        """Return a dict from which a job makes the parameter `settling`."""
         return {"settling": {"Settling": dict(self)}}
 
     def contradictions(self, path, config):
@@ -155,7 +155,7 @@ class Figure(Section):
 
 
 def _curve_not_drawable(path, name, kind, config):
-    """Yield an error line for each reason why a figure of a kind cannot draw a curve."""
+    """If a figure of this kind cannot draw the curve, yield error lines that say why."""
     curve, stage = config.curves[name], kind.stages[0]
     if stage not in curve.stages:
         reason = f"must hold {stage} (what {dotted(path[:2])} draws)"
@@ -194,7 +194,7 @@ Configuration = create_model(
 
 
 def configuration(given, trusted=False):
-    """Return the checked configuration. If `trusted`, skip the slow checks."""
+    """Check the configuration `given` and return it. If `trusted`, skip the slow checks."""
     try:
         found = Configuration.model_validate(without_left_out(given), context=trusted)
     except ValidationError as error:
@@ -210,7 +210,7 @@ def configuration(given, trusted=False):
 
 
 def without_left_out(given):
-    """Return `given` without entries that are null, and remove these entries from figures."""
+    """Return the configuration without entries that are null, also in the data of figures."""
     if not isinstance(given, dict):
         return given
     sections = {key: value for key, value in given.items() if isinstance(value, dict)}

@@ -10,8 +10,8 @@ class Stage(NamedTuple):
 
     name: str
     section: str
-    # Method of the section: takes the whole configuration, returns the arguments of `function`.
-    # `workflow.job.made` turns an argument such as {"Damper": {...}} into an object.
+    # A method of the section. It takes the whole configuration and returns the arguments of
+    # `function`. The job turns an argument such as {"Damper": {...}} into an object.
     job: Callable
     function: str  # "module:name" of the function that computes the dataset
     message: str  # printed for each job
@@ -25,7 +25,7 @@ class Stage(NamedTuple):
 
 
 def stage(function, message, **options):
-    """Return a decorator that makes a method of a section a stage, by default of the same name."""
+    """Return a decorator that makes a method a stage. By default the stage has its name."""
 
     def mark(job):
         job.stage = {"name": job.__name__, "function": function, "message": message} | options

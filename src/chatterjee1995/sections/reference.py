@@ -1,4 +1,4 @@
-"""Reference page of the configuration, made from its classes: keys with allowed values."""
+"""The reference page of the configuration: all keys, with their allowed values."""
 
 from typing import get_args, get_origin
 
@@ -16,7 +16,7 @@ COLUMNS = "| key | must be | meaning |\n|---|---|---|"
 
 
 def reference() -> str:
-    """Return the page as Markdown."""
+    """Return the reference page of the configuration as Markdown."""
     fields = Settings.model_fields
     sections = {key: each.annotation for key, each in fields.items() if _section(each.annotation)}
     parts = [HEAD, "## Single values\n", _table(Configuration, fields.keys() - sections.keys())]
@@ -28,13 +28,12 @@ def reference() -> str:
 
 
 def _table(model, keys=None):
-    """Return a Markdown table of all keys of a section, or of the given keys only."""
     fields = {key: each for key, each in model.model_fields.items() if keys is None or key in keys}
     return "\n".join([COLUMNS, *_rows("", fields), ""])
 
 
 def _rows(prefix, fields):
-    """Yield a table line for each field, and in place of a section the lines of its fields."""
+    """Yield a row of the table for each field, and for a section the rows of its fields."""
     for key, field in fields.items():
         kind, key = field.annotation, prefix + key
         if get_origin(kind) is dict:
@@ -54,19 +53,16 @@ def _rows(prefix, fields):
 
 
 def _item(kind):
-    """Return in words which values an element of a list may have."""
     words, inner = _allowed(kind.__metadata__).words, get_args(kind)[0]
     return f"{words}, each {_item(get_args(inner)[0])}" if get_origin(inner) is list else words
 
 
 def _ranges(kind):
-    """Return the fields of each range that may stand in place of a number, as a list."""
     parts = [get_args(part)[0] for part in get_args(kind) if hasattr(part, "__metadata__")]
     return [part.model_fields for part in parts if _section(part)]
 
 
 def _allowed(metadata):
-    """Return the last `Allowed` in the metadata of a type, or None."""
     return next((x for x in reversed(metadata) if isinstance(x, Allowed)), None)
 
 

@@ -25,13 +25,13 @@ def entries(config, stage) -> list:
 
 
 def job(config, stage, name) -> dict:
-    """Return the parameters of an entry's job, without the entry's name."""
+    """Return the parameters of the job that computes a stage for the entry `name`."""
     entry = getattr(config, STAGES[stage].section)[name]
     return STAGES[stage].job(entry, config)
 
 
 def read_by(config, stage, name) -> dict:
-    """Return a dict: argument of a stage's function -> stages whose dataset `name` it receives."""
+    """Return a dict: argument of a stage's function -> stages that compute its value for `name`."""
     return {
         key: [each for each in stages if name in entries(config, each)]
         for key, stages in STAGES[stage].reads.items()
@@ -39,7 +39,7 @@ def read_by(config, stage, name) -> dict:
 
 
 def figure_data(config, name) -> dict:
-    """Return a dict: stage -> entries that a figure draws. `Kind.damper` may add some."""
+    """Return a dict: stage -> names of the entries whose datasets a figure draws."""
     figure = config.figures[name]
     kind, found = KINDS[figure.kind], {}
     for stage in kind.stages:
@@ -66,7 +66,7 @@ def tables_of(chapter) -> list:
 
 
 def figure_values(config, name) -> dict:
-    """Return what the job of a chapter needs to draw a figure."""
+    """Return the parameters with which the job of a chapter draws a figure."""
     figure = config.figures[name]
     kind = KINDS[figure.kind]
     cases = {each: _case(config, section_of(kind.name), each) for each in figure.data}
@@ -80,7 +80,7 @@ def figure_values(config, name) -> dict:
 
 
 def table_values(config, name) -> dict:
-    """Return what the job of a chapter needs to make a table."""
+    """Return the parameters with which the job of a chapter makes a table."""
     table = TABLES[name]
     values = {
         "module": table.source,
@@ -159,7 +159,6 @@ def in_words(values) -> list:
 
 
 def _value(value):
-    """Return the value of a parameter as text, such as "= 0.215" or "from 1 to 3"."""
     if hasattr(value, "first"):
         return f"from {_number(value.first)} to {_number(value.last)}"
     if isinstance(value, list) and len(value) > MANY:

@@ -48,7 +48,7 @@ NEEDED = ("mass_ratio", "clearance", "restitution")  # parameters that a damper 
 
 
 def keys_of(names, *, needed=(), without=()):
-    """Return a base class with a key for each parameter. Only keys in `needed` are required."""
+    """Return a base class with a key for each of `names`. Only keys in `needed` are required."""
     types = {
         name: PARAMETERS[name] if name in needed else (PARAMETERS[name], None)
         for name in names
@@ -72,16 +72,16 @@ class Range(Section):
             yield problem((*path, "first"), self.first, reason)
 
     def even(self, points=None) -> dict:
-        """Return evenly spaced values, as a parameter of a job."""
+        """Return a dict from which a job makes evenly spaced values over the range."""
         return {"linspace": [self.first, self.last, points or self.points]}
 
     def geometric(self, points=None) -> dict:
-        """Return values with a constant ratio, as a parameter of a job."""
+        """Return a dict from which a job makes values with a constant ratio over the range."""
         return {"geomspace": [self.first, self.last, points or self.points]}
 
 
 def range_of(kind, *, points=False):
-    """Return the type of a range with ends of the type `kind`. If `points`, add a key `points`."""
+    """Return a class of ranges whose ends are of the type `kind`, with a key `points` on demand."""
     types = {"first": kind, "last": kind} | (
         {"points": points_of("points of the grid")} if points else {}
     )
@@ -102,7 +102,7 @@ class Oscillators(keys_of(OSCILLATOR, needed=("damping", "linear_frequency"))):
 
 
 class WithOscillator(Section):
-    """An entry with an oscillator. The keys in `counts` must not ask for too many runs in all."""
+    """An entry with an oscillator. The product of the values of the keys `counts` has a bound."""
 
     oscillator: text("name of an entry of `oscillators`")
 
@@ -115,7 +115,7 @@ class WithOscillator(Section):
             yield problem((*path, "oscillator"), self.oscillator, reason)
 
     def system(self, config) -> dict:
-        """Return the oscillator, as a parameter of a job."""
+        """Return a dict from which a job makes its oscillator."""
         return {"system": {"Oscillator": config.oscillators[self.oscillator].values()}}
 
 
@@ -123,12 +123,12 @@ class WithDamper(keys_of(DAMPER, needed=NEEDED, without=[COMMON]), WithOscillato
     """An entry with an oscillator and a damper."""
 
     def system(self, config) -> dict:
-        """Return the oscillator and the damper, as parameters of a job."""
+        """Return a dict from which a job makes its oscillator and its damper."""
         return super().system(config) | {"damper": {"Damper": damper_values(self, config)}}
 
 
 class MaybeWithDamper(keys_of(DAMPER, without=[COMMON]), WithOscillator):
-    """An entry with an oscillator, and with a damper (all parameters in `whole`) or without."""
+    """An entry with an oscillator. It may have a damper, with all parameters in `whole`."""
 
     whole: ClassVar = NEEDED
 
@@ -141,17 +141,17 @@ class MaybeWithDamper(keys_of(DAMPER, without=[COMMON]), WithOscillator):
                 yield missing((*path, key), reason)
 
     def has_damper(self) -> bool:
-        """Return whether the entry has a damper, shown by one of the parameters in `whole`."""
+        """Return whether the entry has a damper, that is, gives a parameter in `whole`."""
         return bool(given(self, self.whole))
 
     def system(self, config) -> dict:
-        """Return the oscillator, and the damper (or None), as parameters of a job."""
+        """Return a dict from which a job makes its oscillator, and its damper or None."""
         damper = {"Damper": damper_values(self, config)} if self.has_damper() else None
         return super().system(config) | {"damper": damper}
 
 
 def damper_values(entry, config) -> dict:
-    """Return the arguments of `Damper` for an entry, with a number in place of the word `rule`."""
+    """Return the arguments of `Damper`. Rule (19) gives the clearance if it is the word `rule`."""
     values = {COMMON: config.contact_stiffness} | given(entry, DAMPER)
     if values.get("clearance") == "rule":
         oscillator = Oscillator(**config.oscillators[entry.oscillator].values())
@@ -160,7 +160,7 @@ def damper_values(entry, config) -> dict:
 
 
 def too_many(path, section, keys):
-    """Yield an error line if the values at `keys` ask for too many runs. Lists count by length."""
+    """Yield an error line if the product of the values at `keys` is too large a number of runs."""
     counts = []
     for key in keys:
         value = section

@@ -69,11 +69,12 @@ HIGH = 0.5  # a motion is low if max |Z1| is below this fraction of `Cells.reson
 
 
 class Cells(NamedTuple):
-    """Solutions of harmonic balance in all cells of a map, and start states of runs at T = 0.
+    """Solutions of harmonic balance in all cells of a map, and the states from which runs start.
 
-    `resonance` is the amplitude on the free resonance branch or, beyond the branch, at its end.
-    Amplitude and start are NaN where a solution is absent. But without a high solution `high_start`
-    lies on the free resonance branch, if the branch exists there, with the loose mass at rest.
+    The starts belong to T = 0. `resonance` is the amplitude on the free resonance branch or, beyond
+    this branch, at its end. Where there is no quiet or high solution, its amplitude and its start
+    are NaN. But without a high solution `high_start` is a state of the free resonance branch, with
+    the loose mass at rest, as far as this branch reaches.
     """
 
     resonance: np.ndarray
@@ -101,7 +102,7 @@ def balance_cells(rows) -> Cells:
 
 
 def _cell(oscillator, damper, frequency):
-    """Return the `Cells` of a single cell, with a number or a state in place of each array."""
+    """Return a `Cells` for one cell. Each field is a number or a state instead of an array."""
     free, phase = _resonance(oscillator, frequency)
     high_start = np.full(4, np.nan)
     if phase is not None:
@@ -136,7 +137,6 @@ def _cell(oscillator, damper, frequency):
 
 @lru_cache(4096)
 def _solutions(oscillator, damper, frequency):
-    """Return the solutions of (7), and the growth rates of small disturbances."""
     solutions = impacting_solutions(oscillator, damper, frequency)
     return solutions, growth_rate(fixed_points(solutions), oscillator, damper, frequency)
 
@@ -151,17 +151,16 @@ def _start(amplitude, relative_amplitude, phase, frequency):
 
 
 class _Row(NamedTuple):
-    """Oscillator, damper and forcing frequencies of one row of a map."""
-
     oscillator: Oscillator
     damper: Damper
     frequencies: np.ndarray
 
 
 def balance_map(parameter, values, frequency_ratios, fixed, *, settling, workers=1, progress=None):
-    """Return a dataset: harmonic balance and exact motions over a parameter (rows) and frequency.
+    """Return a dataset that compares harmonic balance with exact motions, on a grid.
 
-    `fixed` holds the other parameters. If no clearance is given, rule (19) sets one for each row.
+    A row of the grid has one of the `values` of the parameter. `fixed` holds the other parameters.
+    If they contain no clearance, rule (19) sets one for each row.
     """
     rows = _rows(parameter, values, frequency_ratios, fixed)
     parameters = np.array(
@@ -203,7 +202,6 @@ def balance_map(parameter, values, frequency_ratios, fixed, *, settling, workers
 
 
 def _rows(parameter, values, ratios, fixed):
-    """Return the `_Row` of each value of the parameter."""
     rows = []
     for value in values:
         given = fixed | {parameter: float(value)}
@@ -219,7 +217,7 @@ def _rows(parameter, values, ratios, fixed):
 
 
 def _run(parameters, starts, settling, workers, progress):
-    """Return the `MOTION` record of the run in each cell, "absent" in cells without a start."""
+    """Run a motion in each cell with a start. Return `MOTION` records, "absent" in other cells."""
     asked = np.isfinite(starts[..., 0])
     records = np.zeros(asked.shape, MOTION)
     records["outcome"] = flag("outcome", "absent")
@@ -232,7 +230,7 @@ def _run(parameters, starts, settling, workers, progress):
 
 
 def _kinds(records, resonance):
-    """Return the flag `quiet_run_motion` of each run; `resonance` is from `Cells`."""
+    """Return the kind of motion to which each run leads, as the flag `quiet_run_motion`."""
     low = records["maximum_displacement"] < HIGH * resonance
     quiet = low & is_symmetric_pair(records)
     outcome = records["outcome"]
@@ -251,7 +249,7 @@ def _kinds(records, resonance):
 
 
 def _quiet_verdict(balance, orbits):
-    """Return the flag `quiet_verdict`. No quiet orbit lies beyond a fold or change of contacts."""
+    """Return the flag `quiet_verdict`. Beyond a fold or a change of contacts an orbit is absent."""
     size = np.abs(orbits.multiplier)
     columns = np.arange(size.shape[1])
     ended = np.isin(orbits.end_event, ["fold", "contacts_change"])
@@ -267,7 +265,6 @@ def _quiet_verdict(balance, orbits):
 
 
 def _high_verdict(balance, kinds, displacement):
-    """Return the flag `high_verdict`, which combines harmonic balance and the simulation."""
     near = np.abs(displacement / balance.high_amplitude - 1) <= NEAR
     low = np.isin(
         kinds, [flag("high_run_motion", n) for n in ("quiet", "other_low", "low_chaotic")]

@@ -1,4 +1,4 @@
-"""Share of starts that lead to a collision, for the paper's ball of starts (section 3, iii)."""
+"""Share of the starts in a ball of states that lead to a collision (section 3, iii)."""
 
 import math
 
@@ -41,7 +41,7 @@ def collisions(
 
 @kernel
 def first_collision(p, state, limit, tolerance):
-    """Return the number of cycles to the first contact; infinity if `limit` cycles have none."""
+    """Return the cycles until the first contact, or infinity if `limit` cycles have none."""
     work, y, t, side = workspace(), state.copy(), 0.0, side_of(p, state)
     end = limit * 2.0 * math.pi / p[FREQUENCY]
     while side == 0 and t < end:

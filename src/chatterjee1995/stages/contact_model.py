@@ -82,12 +82,12 @@ def contact_model(
 
 
 def spread_loads(largest, count):
-    """Return loads from -largest to largest: evenly spaced to |G| = LINEAR, then on a log scale."""
+    """Return loads from -largest to largest, nearly even to |G| = LINEAR, logarithmic beyond."""
     return LINEAR * np.sinh(np.linspace(-1, 1, count) * np.arcsinh(largest / LINEAR))
 
 
 def contact_map(restitutions, loads):
-    """Return the realised restitution (NaN: no separation) and a verdict, by rule, load and e."""
+    """Return a dict: realised restitution and verdict, by rule, load and restitution."""
     shape = len(EXIT_RULES), len(loads), len(restitutions)
     realised, verdict = np.empty(shape), np.empty(shape, np.int8)
     for i, j, k in np.ndindex(shape):
@@ -98,7 +98,6 @@ def contact_map(restitutions, loads):
 
 
 def _verdict(found, restitution):
-    """Return the name of the flag `contact_verdict` for an `Exit`."""
     if found.outcome != "released":
         return found.outcome
     error = abs(found.departure / restitution - 1)
@@ -106,7 +105,7 @@ def _verdict(found, restitution):
 
 
 def unloaded_table(restitutions):
-    """Return the variables of contacts without load, with a column for each restitution."""
+    """Return the variables of contacts without load, as a dict."""
     ends = [[contact(e, 0.0, rule) for e in restitutions] for rule in EXIT_RULES]
     return {
         "unloaded_restitution": [[end.departure for end in row] for row in ends],
@@ -116,7 +115,10 @@ def unloaded_table(restitutions):
 
 
 def extreme_motions(oscillator, damper, frequency, starts, seed, settling):
-    """Of motions with contacts, return the smallest settled one and the largest (each or None)."""
+    """Run motions from random starts. Return the smallest settled motion, and the largest motion.
+
+    Only motions with contacts count. If there is none, return None in its place.
+    """
     p = pack(oscillator, damper, frequency)
     states = random_states(starts, damper.clearance, damper, seed)
     motions = ensemble.settle(np.tile(p, (starts, 1)), states, settling)

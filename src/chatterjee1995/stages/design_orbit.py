@@ -31,7 +31,7 @@ HEAVY, HEAVY_SHARE = 2.0, 0.5
 
 
 def design_orbit(oscillator, damper, *, starts=24, radius=None, seed=1995, settling):
-    """Return a dataset: the quiet orbit at Wp over the damping, and motions from many starts."""
+    """Return a dataset: the quiet orbit at Wp as damping varies, and motions from many starts."""
     peak = peak_frequency(oscillator)
     damping = max(HEAVY, 2 * oscillator.damping, HEAVY_SHARE * peak)
     heavy = replace(oscillator, damping=min(damping, 10.0))

@@ -41,10 +41,11 @@ SWEPT = ("mass_ratio", "restitution", "contact_stiffness", "frequency")
 SAMPLES = 1024  # number of values of Z1 in a cycle from which the first harmonic is computed
 SAME = 1e-4  # largest asymmetry of a symmetric orbit, divided by the clearance
 # The search for a minimum changes the ratio by the fraction STEP, at most MOST_STEPS times. Then it
-# locates the minimum; PRECISION is the error allowed in the ratio.
+# locates the minimum, with an error of the ratio up to PRECISION.
 STEP, MOST_STEPS, PRECISION = 0.02, 40, 1e-8
-# At a smooth minimum the displacement rises with the square of the distance, at a kink linearly. A
-# minimum counts as a kink if the rise at CLOSE/2 exceeds KINK times the rise at CLOSE.
+# Near a smooth minimum the displacement rises with the square of the distance from the minimum,
+# near a kink linearly. A minimum counts as a kink if the rise at the distance CLOSE/2 exceeds KINK
+# times the rise at the distance CLOSE.
 CLOSE, KINK = 1e-3, 0.36
 ABSENT = 1e3  # displacement that the search assumes where no orbit exists
 IMPULSES = 400  # number of impulses for which the theory of straight flight is evaluated
@@ -69,7 +70,6 @@ def design_rules(
 
 
 def _cell(oscillator, mass_ratio, restitution, contact_stiffness, frequency):
-    """Return the variables of the dataset for one damper and frequency."""
     damper = Damper(mass_ratio, 1.0, restitution, contact_stiffness)
     rules = rule_ratios(oscillator, damper, frequency)
     motion = QuietMotion(oscillator, damper, frequency)
@@ -130,7 +130,7 @@ class QuietMotion:
         return *(scale * size for size in sizes), abs(orbit.multiplier)
 
     def least(self, criterion, guess):
-        """Return ratio and kind of a local minimum near `guess` of `at(ratio)[criterion]`."""
+        """Find a minimum of `at(ratio)[criterion]` near `guess`. Return its ratio and its kind."""
         middle, lower, upper = guess, guess * (1 - STEP), guess * (1 + STEP)
 
         def size(ratio):

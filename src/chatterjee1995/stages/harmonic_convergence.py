@@ -40,9 +40,9 @@ decay_predicted | error_measure | | | predicted power of 1/N, or rate per harmon
     """
 )
 
-# MEASURES: names of the errors. The other constants predict how each decreases with the highest
-# harmonic N: as N^-n with n in ELASTIC if e = 1, in INELASTIC if e < 1; without a damper as
-# exp(-n W D N) with n in ANALYTIC, where D is `singularity_distance`.
+# MEASURES names the errors. The other constants predict how each error decreases with the highest
+# harmonic N: as N^-n, with n from ELASTIC if e = 1 and from INELASTIC if e < 1. Without a damper it
+# decreases as exp(-n W D N), with n from ANALYTIC. D is `singularity_distance`.
 MEASURES = ("maximum", "retained", "omitted", "multiplier")
 ELASTIC = (4.0, 5.0, 3.5, 4.0)
 INELASTIC = (3.0, 3.0, 2.5, 3.0)
@@ -72,7 +72,7 @@ def asymptotic_harmonic(damper, frequency) -> float:
 
 
 def decay(damper, p, state) -> tuple:
-    """Return how the errors should decrease: the kind, and powers of 1/N or rates per harmonic."""
+    """Predict how errors decrease: return the kind, and powers of 1/N or rates per harmonic."""
     if damper is None:
         return "exponential", np.array(ANALYTIC) * p[FREQUENCY] * singularity_distance(p, state)
     return "algebraic", np.array(ELASTIC if damper.restitution == 1 else INELASTIC)
@@ -97,7 +97,7 @@ def singularity_distance(p, state) -> float:
         return np.array([v, drive - p[DAMPING] * v - stiffness * x - cubic * x**3])
 
     def integrate(y, begin, end):
-        """Return time and state at the end of a line in complex time, or where |Z1| is LARGE."""
+        """Integrate on a line in complex time until its end or until |Z1| is LARGE."""
 
         def large(fraction, y):
             return LARGE * length - abs(y[0])
@@ -148,8 +148,8 @@ def ladder(highest) -> np.ndarray:
 def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
     """Return a dataset of errors of harmonic balance for a symmetric motion, by highest harmonic.
 
-    Each of `harmonics` is the highest of a balance. Newton's method starts from the last converged
-    solution and, for each number in `cold`, once more from the solution with one harmonic.
+    Newton's method starts from the last converged solution. For a highest harmonic in `cold` it
+    starts once more, from the solution with one harmonic.
     """
     harmonics = np.asarray(harmonics, int)
     balances = [Balance(oscillator, damper, frequency, int(highest)) for highest in harmonics]
@@ -186,7 +186,7 @@ def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
 
 
 def cold_status(warm, first) -> int:
-    """Solve again from the coefficients `first`, compare with `warm`; return flag `cold_status`."""
+    """Solve again from the coefficients `first`. Return as a flag whether `warm` is found again."""
     found = solve(warm.balance, first)
     if found.status != "converged":
         return flag("cold_status", found.status)
@@ -196,7 +196,7 @@ def cold_status(warm, first) -> int:
 
 
 def errors(solutions, multipliers, exact):
-    """Return the errors of n solutions against the exact orbit; rows are MEASURES, shape (4, n)."""
+    """Return the errors of n solutions against the exact orbit. The rows (4, n) are MEASURES."""
     found = np.full((len(MEASURES), len(solutions)), np.nan)
     balance, size = solutions[0].balance, exact.record["maximum_displacement"]
     start = exact.strobe_states[0]
@@ -222,7 +222,7 @@ def errors(solutions, multipliers, exact):
 
 
 def _farthest(values, references):
-    """Pair values with references, at least total distance; return the largest in a pair."""
+    """Pair values with references so that distances are small; return the largest distance."""
     if np.isnan(values).any():
         return np.nan
     away = np.abs(values[:, None] - references)
@@ -230,7 +230,7 @@ def _farthest(values, references):
 
 
 def decay_table(harmonics, data, damper, p, exact):
-    """Return a dict: the decrease of errors, predicted and fitted above `asymptotic_harmonic`."""
+    """Return a dict: how the errors decrease, as predicted and by a fit."""
     lowest = asymptotic_harmonic(damper, p[FREQUENCY])
     kind, predicted = decay(damper, p, exact.strobe_states[0])
     scale = np.log(harmonics) if kind == "algebraic" else harmonics

@@ -46,16 +46,16 @@ POLICIES = ["settled", "hold", "phase", "state"]
 # Policies choose among these numbers of cycles with the damper on. Successive ratios are about 1.6.
 HOLDS = (1, 2, 3, 5, 8, 13, 21, 34)
 QUANTILES = [0.5, 0.95]  # quantiles of the cycles until the goal
-# A run with the damper on, and the `state` (Z1, Z1') at the next strobe, `ahead` cycles later.
+# A run with the damper on. A strobe follows `ahead` cycles later, with the `state` (Z1, Z1').
 HELD = np.dtype(
     [("released", "?"), ("cycles", "f8"), ("impacts", "i8"), ("state", "f8", 2), ("ahead", "f8")]
 )
-# A rule: a policy (`kind`) with a number of cycles and the index of a phase, see `legs.hold`.
+# A rule for the release: kind of policy, number of cycles, index of a phase (see `legs.hold`).
 RULE = np.dtype([("kind", "i8"), ("cycles", "f8"), ("phase", "i8")])
 
 
 class Outcome(NamedTuple):
-    """Results of trials: cycles to the goal (or infinity), cycles with the `damper` on, counts."""
+    """Results of trials. `cycles` are those until the goal, `damper` those with the damper on."""
 
     reached: np.ndarray
     cycles: np.ndarray
@@ -100,7 +100,7 @@ def release_policies(
 
 
 class Trials(NamedTuple):
-    """Trials with one damper at one frequency."""
+    """Trials of migration with one damper at one frequency."""
 
     on: np.ndarray
     releases: tuple
@@ -133,7 +133,7 @@ class Trials(NamedTuple):
         reached, running = np.zeros(count, bool), np.arange(count)
         rules = np.repeat(np.array(rules, RULE), trials)
         while len(running):
-            # Random numbers for phase of switching on, place of loose mass, release, and start.
+            # Random numbers: phase of switching on, place of the loose mass, release, and start.
             draws = generator.random((trials, 4))[running % trials]
             first = np.searchsorted(owner, place[running])
             number = np.searchsorted(owner, place[running], side="right") - first
@@ -154,7 +154,7 @@ class Trials(NamedTuple):
         return list(map(Outcome, *(column.reshape(-1, trials) for column in columns)))
 
     def hold(self, starts, draws, limits, rules):
-        """Return the array of HELD from `hold_many`, computed on several threads."""
+        """Run `hold_many` on several threads and return its output `held`."""
         held, stop = np.zeros(len(starts), HELD), np.zeros(1, bool)
         set_ = self.releases
 
@@ -168,7 +168,7 @@ class Trials(NamedTuple):
         return held
 
     def labels(self, states):
-        """Return to which motion each state at a strobe leads, and after how many cycles."""
+        """Find the motions to which states at a strobe lead; return their labels and the cycles."""
         settings = self.settling.tolerance, self.settling.limit, self.workers
         return ensemble.label_states(
             self.releases.p, states, math.pi / 2, self.releases.attractors, *settings
@@ -177,10 +177,11 @@ class Trials(NamedTuple):
 
 @kernel
 def hold_many(on, off, starts, draws, limits, rules, depth, half, tolerance, held, stop):
-    """In each trial switch the damper on, call `legs.hold`, and run to the next strobe.
+    """In each trial switch the damper on, keep it on by `legs.hold`, and run to the next strobe.
 
-    `starts` (n, 2) are Z1, Z1' at the strobe before. `draws` set the phase of switching on, the
-    place of the loose mass and the release. `held` is the output. `legs.hold` explains the rest.
+    `starts` (n, 2) are Z1, Z1' at the last strobe before. `draws` set the phase of switching on,
+    the place of the loose mass and the release. The results are written to `held`. `legs.hold`
+    explains the other arguments.
     """
     none, path, work, y = np.empty((0, 4)), np.empty((0, 5)), workspace(), np.empty(4)
     period, first = 2.0 * math.pi / on[FREQUENCY], strobe_time(on)

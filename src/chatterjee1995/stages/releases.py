@@ -59,7 +59,7 @@ release_share | damped free_motion bound | | | share of releases that lead to ea
 LEAD = 20  # number of cycles before the first release; then the start of a run matters no longer
 PAPER_CYCLES = 350  # cycles within which the paper's controller reaches the non-resonance branch
 CAPTURE = 0.1  # largest difference in Z1 and in Z1' between a captured run and its last orbit
-# A release: phase in cycles after a strobe (W T = pi/2), Z1 and Z1', and the resulting free motion.
+# A release: cycles since a strobe (W T = pi/2), Z1 and Z1', and the free motion that it leads to.
 RELEASE = np.dtype(
     [("phase", "f8"), ("displacement", "f8"), ("velocity", "f8"), ("destination", "i1")]
 )
@@ -116,7 +116,7 @@ def migration(
 
 
 def _example(totals):
-    """Return the index of a run that reaches the goal by the median number of switchings, or 0."""
+    """Return the index of a typical run that reaches the goal, or 0 if no run does."""
     reached = totals["trial_outcome"] == flag("trial_outcome", "reached")
     if not reached.any():
         return 0
@@ -125,7 +125,6 @@ def _example(totals):
 
 
 def _summary(switchings, totals):
-    """Return a dict: shares of runs at the goal, counts of releases by motion before and after."""
     reached = totals["trial_outcome"] == flag("trial_outcome", "reached")
     within = reached & (totals["total_time"] <= PAPER_CYCLES)
     before, after = switchings["released_from"], switchings["destination"]
@@ -140,7 +139,7 @@ def _summary(switchings, totals):
 
 
 def _release(case, state, wait, settling, stop=NEVER):
-    """Switch the damper off `wait` forcing cycles after a strobe; return the RELEASE."""
+    """Switch the damper off `wait` cycles after the strobe with this state; return a RELEASE."""
     tolerance, limit = settling.tolerance, settling.limit
     path, record = legs.leg(case.on, case.off, state.copy(), wait, 0.0, 0.0, tolerance, limit, stop)
     return wait, *path[0, 1:3], destination(case.known, record)
@@ -152,7 +151,7 @@ def watch_runs(case, seeds, lifetime, settling, workers, progress):
     A release takes place at a random time after LEAD cycles, before an orbit captures the run and
     before `lifetime` cycles have passed. If there is no such time, the release is NaN.
     """
-    # Random numbers: phase of switching on, place of the loose mass, strobe before release, wait.
+    # Random numbers: phase of switching on, place of the loose mass, strobe, wait until release.
     draws = np.array([np.random.default_rng(seed).random(4) for seed in seeds])
     motions = np.zeros(len(draws), MOTION)
     entries = np.full(len(draws), np.array((np.nan,) * 3 + (FREE_MOTION["none"],), RELEASE))
@@ -187,7 +186,11 @@ def _life(p, path, record, tolerance):
 
 
 def release_data(case, motions, entries, settling):
-    """Return variables of releases: RELEASE rows `entries`, evenly spaced ones in `motions`."""
+    """Return the variables of releases. Each row of the arrays belongs to a motion with the damper.
+
+    The first row holds the releases `entries`, from motions that have not settled. The other rows
+    hold releases from `motions`, equally spaced over the period of each motion.
+    """
     number = len(entries)
     rows = [entries]
     for record in motions:
@@ -216,9 +219,9 @@ def release_data(case, motions, entries, settling):
 
 
 def _settled_motions(oscillator, damper, frequency, seed, settling, workers, known):
-    """Return the settled motions in `known` and from runs of many starts, sorted by max |Z1|."""
+    """Return the settled motions in `known` and those of many starts, the smallest first."""
     on = pack(oscillator, damper, frequency)
-    # The solutions for elastic contact are good starts for an inelastic damper too.
+    # The solutions of (7) for elastic contact are good starts for an inelastic damper too.
     balance = impacting_solutions(oscillator, replace(damper, restitution=1.0), frequency)
     angle = balance.phase + np.pi / 2
     columns = [
@@ -276,7 +279,7 @@ def release_scan(
 
 
 def _scan_records(response):
-    """Return records of the settled motions of a response at one W, the smallest motion first."""
+    """Return records of the settled motions at one frequency, the smallest motion first."""
     keep = response["outcome"].values == flag("outcome", "settled")
     found = np.zeros(np.sum(keep), MOTION)
     for name in ("period", "maximum_displacement", "contacts", "state"):
@@ -285,7 +288,6 @@ def _scan_records(response):
 
 
 def _padded(values, length):
-    """Return an array whose first axis is extended to `length` by NaN, or by -1 for integers."""
     missing = np.nan if values.dtype.kind == "f" else -1
     widths = [(0, length - len(values))] + [(0, 0)] * (values.ndim - 1)
     return np.pad(values, widths, constant_values=missing)

@@ -1,4 +1,4 @@
-"""Errors of rigid and of corrected ("mended") rigid walls over contact stiffness and frequency."""
+"""Errors of max |Z1| if walls are taken as rigid, without and with a correction ("mended")."""
 
 from dataclasses import replace
 
@@ -44,7 +44,10 @@ STIFF = 1e4  # least r1 in the fit of error ~ r1^-n, which holds for short conta
 def rigid_limit(
     oscillator, damper, frequency, frequencies, stiffnesses, *, starts=16, seed=1995, settling
 ):
-    """Return the errors of rigid walls; raise ArithmeticError if no quiet motion is found."""
+    """Return a dataset: errors of max |Z1| if walls are taken as rigid.
+
+    Raise ArithmeticError if no quiet motion is found.
+    """
     frequencies, stiffnesses = np.array(frequencies, float), np.array(stiffnesses, float)
     quiet = _quiet(oscillator, damper, frequency, starts, seed, settling)
     compliant, rigid, own = _grids(oscillator, damper, frequency, frequencies, stiffnesses, quiet)
@@ -67,7 +70,6 @@ def rigid_limit(
 
 
 def _quiet(oscillator, damper, frequency, starts, seed, settling):
-    """Return the quiet orbit to which random starts lead; raise ArithmeticError if none does."""
     motion, _ = extreme_motions(oscillator, damper, frequency, starts, seed, settling)
     if motion is not None and motion["period"] == 1:
         p = pack(oscillator, damper, frequency)
@@ -81,7 +83,7 @@ def _quiet(oscillator, damper, frequency, starts, seed, settling):
 
 
 def _spread(correct, points, cell, own_point, orbit):
-    """Follow `orbit` from `own_point` to a cell, then into the other cells; return the `Grid`."""
+    """Follow `orbit` to a cell, and from there to all other cells; return the `Grid`."""
     grid = Grid(points, correct)
     followed = follow_line(correct, own_point, points[cell], orbit)
     grid.orbits[cell] = _reached(followed, "frequencies")
@@ -90,14 +92,13 @@ def _spread(correct, points, cell, own_point, orbit):
 
 
 def _reached(followed, key):
-    """Return the orbit at the end of a line, or raise an ArithmeticError that names `key`."""
     if not followed.arrived:
         raise ArithmeticError(f"{key}: the quiet motion cannot be followed into this grid")
     return followed.orbit
 
 
 def _grids(oscillator, damper, frequency, frequencies, stiffnesses, quiet):
-    """Return grids of compliant and of rigid orbits, and the rigid orbit at `frequency`."""
+    """Return grids of orbits with compliant and rigid walls, and the rigid orbit at `frequency`."""
 
     def compliant_at(point, guess):
         each = replace(damper, contact_stiffness=float(np.exp(point[1])))
@@ -121,7 +122,6 @@ def _grids(oscillator, damper, frequency, frequencies, stiffnesses, quiet):
 
 
 def _errors(oscillator, damper, frequencies, stiffnesses, compliant, rigid):
-    """Return a dict: the errors of max |Z1| with rigid and corrected walls, and the verdicts."""
     shape = len(frequencies), len(stiffnesses)
     plain, mended = np.full(shape, np.nan), np.full(shape, np.nan)
     verdict = np.full(shape, flag("rigid_verdict", "neither"))
@@ -139,7 +139,6 @@ def _errors(oscillator, damper, frequencies, stiffnesses, compliant, rigid):
 
 
 def _verdict(soft, hard):
-    """Return the name of the flag `rigid_verdict` for a compliant and a rigid orbit (or None)."""
     if soft is None or hard is None:
         return "neither" if soft is hard else "rigid_only" if soft is None else "compliant_only"
     stable = [abs(orbit.multiplier) < 1 for orbit in (soft, hard)]
@@ -147,7 +146,7 @@ def _verdict(soft, hard):
 
 
 def _needed(stiffnesses, errors):
-    """Return a dict: the r1 above which |error| stays below each threshold, and its status."""
+    """Return a dict: the r1 above which |error| stays below each threshold, and a status."""
     shape = len(THRESHOLDS), len(errors)
     needed, status = np.full(shape, np.nan), np.full(shape, flag("needed_status", "absent"))
     for j, row in enumerate(np.abs(errors)):

@@ -71,7 +71,7 @@ def study_chunk(
         damper = Damper(contact_stiffness=contact_stiffness, **values)
         return pack(oscillator, damper, frequency), damper
 
-    # Check the ends of the sorted axes before hours of work. A value out of range would be there.
+    # Check the ends of the sorted axes before hours of work. Values out of range would be there.
     for end in (0, -1):
         random_states(0, radius, system([end] * len(AXES))[1], seed)
     warn_if_narrow(oscillator, axes["frequency"], radius)
@@ -99,7 +99,6 @@ def study_chunk(
 
 
 def _condensed(runs):
-    """Return the results of the runs in a cell, a row of `CELL`."""
     sizes = runs["maximum_displacement"]
     quiet = is_settled(runs) & is_symmetric_pair(runs)
     return (

@@ -51,7 +51,8 @@ def subharmonic_suppression(
     """Return a dataset of motions with the damper in the range of W of the free subharmonic.
 
     If the free subharmonic is found, `frequencies` are replaced by as many frequencies over its
-    range and a margin on both sides. Within the range, half of the starts lie on this motion.
+    range and a margin on both sides. Within the range, half of the starts lie on the free
+    subharmonic.
     """
     if not any(getattr(oscillator, name) for name in NONLINEAR):
         raise ValueError(
@@ -79,7 +80,7 @@ def subharmonic_suppression(
 
 
 def _switch_half(oscillator, parameters, free, states, seed):
-    """Put half of `states` (n, m, 4) on the free subharmonic; return its max |Z1|, or NaN."""
+    """Put half of the start states on the free subharmonic; return its max |Z1|, or NaN."""
     size = np.full(len(parameters), np.nan)
     half = states.shape[1] // 2
     for i, p in enumerate(parameters):
@@ -94,7 +95,7 @@ def _switch_half(oscillator, parameters, free, states, seed):
 
 
 def switched_on(oscillator, p, state, loose, generator):
-    """Switch the damper on at random times; return the states at the next multiple of 2 pi in W T.
+    """Switch the damper on at random times. Return each state when W T is next a multiple of 2 pi.
 
     The last two columns of `loose` (m, 4) give Z2 and Z2'. In every second row Z2' is set to 0.
     """
@@ -105,7 +106,7 @@ def switched_on(oscillator, p, state, loose, generator):
     states = traces.states_at(free, state, begin, times, tolerance)
     states[:, 2:] = loose[:, 2:]
     states[::2, 3] = 0.0
-    # `trace_steps` writes a row of `log` for each contact. A step has at most one contact.
+    # In `log` each contact takes a row. A step has at most one contact, so there are rows enough.
     sample, log = np.empty((1, 4)), np.empty((traces.STEPS_AT_ONCE, 5))
     for time, y in zip(times, states, strict=True):
         end = np.array([np.ceil(time / period) * period])
@@ -114,7 +115,6 @@ def switched_on(oscillator, p, state, loose, generator):
 
 
 def _subharmonic_table(data, free):
-    """Return the variables of the subharmonics without and with the damper at each frequency."""
     size = np.where(is_subharmonic(data), data["maximum_displacement"][1], -np.inf)
     damped = np.max(size, axis=1)
     return {
@@ -125,12 +125,12 @@ def _subharmonic_table(data, free):
 
 
 def is_subharmonic(data):
-    """Return the mask of the settled motions whose period is a multiple of 3."""
+    """Return an array: whether a motion has settled with a period that is a multiple of 3."""
     return (data["outcome"][1] == flag("outcome", "settled")) & (data["period"][1] % 3 == 0)
 
 
 def branch_ends(data, branch, grid, rows):
-    """Return the ends of a branch, located by the sweep `data`, else the outermost `grid[rows]`."""
+    """Return the frequencies of both ends of a branch, from the sweep `data` or from the grid."""
     ends = grid[[min(rows), max(rows)]]
     for side, (row, step, turn) in enumerate(((min(rows), -1, "down"), (max(rows), 1, "up"))):
         if not 0 <= row + step < len(grid):
@@ -149,7 +149,7 @@ def branch_ends(data, branch, grid, rows):
 
 
 class FreeSubharmonic(NamedTuple):
-    """The free subharmonic: parameters, states at W T = pi/2, and `ends` in W (NaN if absent)."""
+    """The free subharmonic: states at W T = pi/2, and frequencies of its ends (NaN if absent)."""
 
     parameters: np.ndarray
     states: np.ndarray
@@ -161,7 +161,7 @@ class FreeSubharmonic(NamedTuple):
         return len(self.states) > 0
 
     def at(self, frequency):
-        """Return the `MOTION` record at a frequency, or None beyond the ends of the branch."""
+        """Return the `MOTION` record at a frequency, or None if the branch does not reach it."""
         if not self.ends[0] <= frequency <= self.ends[1]:
             return None
         k = np.argmin(np.abs(self.parameters[:, FREQUENCY] - frequency))

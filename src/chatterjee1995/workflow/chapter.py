@@ -8,7 +8,7 @@ from impact_damper.data.whole_files import whole
 
 
 def make_table(name, given, datasets, path) -> None:
-    """Save a table as CSV and Markdown, and its caption. `given`: see `selection.table_values`."""
+    """Save a table as CSV and Markdown, with its caption. `given` is from `table_values`."""
     from chatterjee1995.tables import files as table_files
 
     module = import_module(given["module"])
@@ -23,7 +23,7 @@ def make_table(name, given, datasets, path) -> None:
 
 
 def draw_figure(given, datasets, path) -> None:
-    """Save a figure as PDF and PNG, and its caption. `given`: see `selection.figure_values`."""
+    """Save a figure as PDF and PNG, with its caption. `given` is from `figure_values`."""
     from impact_damper.plot.style import save_figure
 
     drawn = given["drawn"].items()
@@ -33,6 +33,5 @@ def draw_figure(given, datasets, path) -> None:
 
 
 def _write(path, text):
-    """Write a text to a file, completely or not at all."""
     with whole(path) as part:
         part.write_text(text + "\n")

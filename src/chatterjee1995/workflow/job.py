@@ -22,8 +22,8 @@ import psutil
 # Collect garbage rarely: objects of imported modules stay in use, and a job makes few others.
 gc.set_threshold(10_000)
 
-# Seconds between checks that Snakemake is alive. If it is not, the job ends. A new run of Snakemake
-# needs more than LOOK seconds to start its first job, so no old job is then left.
+# A job checks every LOOK seconds that Snakemake is alive, and ends if it is not. A new run of
+# Snakemake takes longer to start its first job, so by then no job of an old run is left.
 LOOK = 0.5
 
 # Key of a parameter such as {"linspace": [0.6, 2.6, 41]} -> function that makes its value.
@@ -49,7 +49,7 @@ def imported(name):
 
 
 def made(value):
-    """Return a parameter of a job, with parts such as {"linspace": [...]} replaced by values."""
+    """Return a parameter of a job, where values replace dicts such as {"linspace": [0, 1, 5]}."""
     if isinstance(value, list):
         return [made(each) for each in value]
     if not isinstance(value, dict):
@@ -62,7 +62,7 @@ def made(value):
 
 
 def counts(first, last, points):
-    """Return whole numbers from `first` to `last` with a nearly constant ratio."""
+    """Return `points` whole numbers from `first` to `last`. Their ratios are nearly constant."""
     import numpy as np
 
     return np.geomspace(first, last, points).round().astype(int).tolist()
@@ -98,7 +98,7 @@ class Job:
             shutil.rmtree(steps, ignore_errors=True)
 
     def computed(self, given, offered):
-        """Return the stage's dataset. Its function gets the values in `offered` that it accepts."""
+        """Call the function of the stage with what it accepts of `offered`; return the dataset."""
         function = imported(self.given["function"])
         taken = inspect.signature(function).parameters
         offered = offered | {"workers": self.snakemake.threads}
@@ -116,7 +116,7 @@ class Job:
 
     @cached_property
     def datasets(self):
-        """All input datasets, keyed by stage and entry; their attribute `name` is the entry."""
+        """All input datasets, as a dict: stage -> dict of datasets by the name of an entry."""
         from impact_damper.data.datasets import load
 
         found = {}
@@ -129,7 +129,6 @@ class Job:
 
 
 def _content(files):
-    """Return the datasets in a list of files, or the content of a JSON file."""
     from impact_damper.data.datasets import load
 
     if isinstance(files, str):
@@ -138,7 +137,7 @@ def _content(files):
 
 
 def _report_file_errors():
-    """Report file errors in one line, also on the terminal: a full disk cannot store the log."""
+    """Print file errors in one line, also on the terminal, as a full disk may lose the log."""
     terminal, show = sys.stderr, sys.excepthook
 
     def report(kind, error, trace):

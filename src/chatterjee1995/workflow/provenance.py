@@ -11,7 +11,7 @@ from pathlib import Path
 
 
 def provenance(configuration, root) -> dict:
-    """Return a dict with the provenance; `commit` and `modified` are None outside a repository."""
+    """Return what results come from, as a dict. Outside a repository `commit` is None."""
     root = Path(root)
     lock = (root / "requirements.lock").read_bytes()
     text = json.dumps(configuration, sort_keys=True)
@@ -43,7 +43,6 @@ def processor() -> str:
 
 
 def _versions(lock):
-    """Return the versions of impact-damper and of all installed packages that `lock` names."""
     found = {}
     for name in ["impact-damper", *re.findall(r"^([\w.-]+)==", lock, re.MULTILINE)]:
         try:
@@ -54,7 +53,6 @@ def _versions(lock):
 
 
 def _git(root, *arguments):
-    """Return the output of git, or None without git or outside of a repository."""
     command = ["git", "-C", str(root), *arguments]
     try:
         return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()

@@ -7,7 +7,7 @@ from importlib import import_module
 
 @cache
 def integrators(stage=None) -> dict:
-    """Return a dict of integrators by name: those in a stage or, without a stage, all."""
+    """Return the integrators that a stage compares (without a stage: all), as a dict by name."""
     modules = [import_module(f"{__name__}.{each.name}") for each in pkgutil.iter_modules(__path__)]
     declared = [each for module in modules for each in module.INTEGRATORS]
     declared.sort(key=lambda each: each.place)
@@ -16,7 +16,7 @@ def integrators(stage=None) -> dict:
 
 @cache
 def runs_of_accuracy() -> dict:
-    """Return a dict: for the label of each run in `accuracy`, the integrator and `locate`."""
+    """Return a dict for the stage `accuracy`: label of a run -> (integrator, `locate`)."""
     return {
         each.label(located): (each, located)
         for each in integrators("accuracy").values()

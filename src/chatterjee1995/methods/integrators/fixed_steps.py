@@ -16,7 +16,7 @@ BEYOND = 1e3  # a run has diverged if |Z1| + |Z1'| + |Z2'| (in `flight`: a compo
 
 @kernel
 def forcing(p, t, h):
-    """Return a tuple: the external force at t, t + h/3, t + h/2 and t + h."""
+    """Return the external force at the times t, t + h/3, t + h/2 and t + h."""
     return (
         external_force(p, t),
         external_force(p, t + h / 3.0),
@@ -27,7 +27,7 @@ def forcing(p, t, h):
 
 @kernel_only
 def verlet_step(p, drives, h, y):
-    """Return the state after a step of velocity Verlet, order 2."""
+    """Return the state after a step h of the velocity Verlet method, which has order 2."""
     k1 = rate_by_position(p, drives[0], y)
     x = y[0] + h * (y[1] + 0.5 * h * k1[1])
     z = y[2] + h * (y[3] + 0.5 * h * k1[3])
@@ -37,7 +37,7 @@ def verlet_step(p, drives, h, y):
 
 @kernel_only
 def runge_kutta_4_step(p, drives, h, y):
-    """Return the state after a step of the classical Runge-Kutta method, order 4."""
+    """Return the state after a step h of the classical Runge-Kutta method of order 4."""
     k1 = rate_by_position(p, drives[0], y)
     k2 = rate_by_position(p, drives[2], moved(y, 0.5 * h, k1))
     k3 = rate_by_position(p, drives[2], moved(y, 0.5 * h, k2))
@@ -48,7 +48,7 @@ def runge_kutta_4_step(p, drives, h, y):
 
 @kernel_only
 def merson_step(p, drives, h, y):
-    """Return the state after a step of Runge-Kutta-Merson, order 4 with five evaluations."""
+    """Return the state after a step h of the Runge-Kutta-Merson method, which has order 4."""
     k1 = rate_by_position(p, drives[0], y)
     k2 = rate_by_position(p, drives[1], moved(y, h / 3.0, k1))
     k3 = rate_by_position(p, drives[1], moved(moved(y, h / 6.0, k1), h / 6.0, k2))
@@ -60,7 +60,7 @@ def merson_step(p, drives, h, y):
 
 @kernel
 def one_step(method, p, drives, h, y):
-    """Return the state after a step h of a method; `drives` are the forces from `forcing`."""
+    """Return the state after a step h. `method` is one of NUMBERS, `drives` is from `forcing`."""
     if method == VERLET:
         return verlet_step(p, drives, h, y)
     if method == RUNGE_KUTTA_4:
@@ -70,7 +70,7 @@ def one_step(method, p, drives, h, y):
 
 @kernel
 def run_fixed(method, p, start, t, steps, largest):
-    """Run from `start` at t. Fill `largest` with max |Z1| in each cycle; NaN after divergence."""
+    """Run from `start` at the time t. Write max |Z1| of each cycle, or NaN, to `largest`."""
     h = 2.0 * math.pi / p[FREQUENCY] / steps
     y = (start[0], start[1], start[2], start[3])
     largest[:] = np.nan
@@ -92,7 +92,7 @@ def run_fixed(method, p, start, t, steps, largest):
 
 @kernel
 def fixed_ends(method, p, start, t, step, ends):
-    """Fill `ends` (m, 5) with time and state after each of m equal steps from `start` at t."""
+    """Make equal steps from `start` at t. Write time and state after each to a row of `ends`."""
     y = (start[0], start[1], start[2], start[3])
     for i in range(len(ends)):
         y = one_step(method, p, forcing(p, t + i * step, step), step, y)
@@ -101,7 +101,7 @@ def fixed_ends(method, p, start, t, step, ends):
 
 
 class FixedStep(Integrator):
-    """A method with equal steps; `number`, one of NUMBERS, selects it in `one_step`."""
+    """A method with equal steps. Its `number` is one of NUMBERS, which `one_step` takes."""
 
     fixed = True
 
@@ -123,14 +123,14 @@ class FixedStep(Integrator):
         return self.seen(p, np.concatenate([[[0.0, *state]], ends]), time)
 
     def seen(self, p, ends, time):
-        """Return |Z2| at each of the `ends` (rows of time and state), and |Z2| at `time`."""
+        """Return |Z2| in each row of `ends` (a time and a state), and |Z2| at `time`."""
         last = ends[ends[:, 0] <= time][-1]
         there = np.empty((1, 5))
         fixed_ends(self.number, p, last[1:].copy(), last[0], time - last[0], there)
         return np.abs(ends[:, 3]), abs(there[0, 3])
 
 
-# The last argument of FixedStep is `stability_limit`, which `Integrator` explains.
+# The last argument is the stability limit: largest stable step times natural frequency.
 BOTH = "stable_steps", "missed_contacts"
 INTEGRATORS = (
     FixedStep(VERLET, "verlet", "velocity Verlet", 1, BOTH[:1], 2.0),

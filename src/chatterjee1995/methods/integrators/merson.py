@@ -1,4 +1,4 @@
-"""The paper's method, Runge-Kutta-Merson. Error allowed in a step: tolerance * (1 + |y|)."""
+"""The paper's method, Runge-Kutta-Merson. A step may have the error tolerance * (1 + |y|)."""
 
 import math
 
@@ -12,8 +12,9 @@ from impact_damper.model.packed import CLEARANCE, FREQUENCY
 
 # Floating-point operations of a step: five evaluations of the rate, and their combinations.
 STEP_OPERATIONS = 366
-# A run fails if it diverges, needs a step below SHORTEST, or needs more steps than MOST_STEPS in a
-# call of `advance_merson`, MOST_ENDS in a forcing cycle, or MOST_FLIGHT_ENDS in `flight`.
+# A run fails if it diverges, or if it would exceed one of these limits.
+# SHORTEST: shortest step. MOST_STEPS: largest number of steps in a call of `advance_merson`.
+# MOST_ENDS, MOST_FLIGHT_ENDS: largest number of steps in a forcing cycle and in `flight`.
 SHORTEST = 1e-12
 MOST_STEPS, MOST_ENDS, MOST_FLIGHT_ENDS = 10**6, 400_000, 10**5
 FIRST = 1e-3  # length of the first step, divided by the forcing period or, in `flight`, by `end`
@@ -41,7 +42,7 @@ def estimated_step(p, side, by_position, t, h, y, tolerance):
 
 @kernel
 def located(p, side, t, h, y, tolerance):
-    """Shorten a step h to end at |Z2| = d0; return its length, final state and number of tries."""
+    """Shorten a step h so that it ends at a wall; return its length, last state, steps tried."""
     low, high = 0.5 * h, h
     state, _ = estimated_step(p, side, False, t, high, y, tolerance)
     beyond = ahead(p, side, state[2])
@@ -75,10 +76,11 @@ def located(p, side, t, h, y, tolerance):
 
 @kernel
 def advance_merson(p, y, side, t, end, h, tolerance, locate, ends):
-    """Integrate y in place from t to end, first with a step h. Write step ends to `ends` (m, 5).
+    """Integrate y in place from t to `end`. Write time and state after each step to `ends`.
 
-    Return four numbers: the wall in contact (always `side` without `locate`), the length of the
-    next step, the number of accepted steps (-1 if the run failed), and the number of all steps.
+    The first step is h. Return four numbers: the wall in contact (unchanged if `locate` is false),
+    the length of the next step, the number of accepted steps (-1 if the run failed), and the number
+    of all steps tried.
     """
     state = (y[0], y[1], y[2], y[3])
     steps, tries = 0, 0
@@ -113,7 +115,7 @@ def advance_merson(p, y, side, t, end, h, tolerance, locate, ends):
 
 
 class Merson(FixedStep):
-    """Runge-Kutta-Merson with step control; `largest_displacements` uses equal steps."""
+    """Runge-Kutta-Merson with step control, but with equal steps in `largest_displacements`."""
 
     fixed = False
     tolerances = "merson"

@@ -17,7 +17,7 @@ UNLIMITED = 2**62  # limit of evaluations of the rate, which no run reaches
 
 @kernel
 def derivative(t, y, p, side, left):
-    """Return the rate. `left` counts the evaluations left; OverflowError is raised if none is."""
+    """Return the derivative of the state. Raise OverflowError if no evaluations are `left`."""
     left[0] -= 1
     if left[0] < 0:
         raise OverflowError("too many evaluations")
@@ -34,14 +34,14 @@ _event.terminal, _event.direction = True, -1
 
 
 def solved(method, p, y, span, side, tolerance, left, **options):
-    """Return the result of `solve_ivp`."""
+    """Return the result of `solve_ivp`. The tolerance is both relative and absolute."""
     given = {"args": (p, side, left), "rtol": tolerance, "atol": tolerance} | options
     with np.errstate(all="ignore"):
         return solve_ivp(derivative, span, y, method, **given)
 
 
 def parts(method, p, start, t, end, tolerance, locate, left):
-    """Yield the results of `solve_ivp`: if `locate`, one per flight and contact, else only one."""
+    """Yield results of `solve_ivp`: one, or if `locate` one for each flight and each contact."""
     y, side = np.array(start), side_of(p, start) if locate else BY_POSITION
     status = 1
     while status == 1:
@@ -57,7 +57,7 @@ def parts(method, p, start, t, end, tolerance, locate, left):
 
 
 class SciPy(Integrator):
-    """One of SciPy's methods. The comment at INTEGRATORS explains the numbers of operations."""
+    """An integrator of SciPy. INTEGRATORS explains `operations` and `factorising`."""
 
     tolerances = "scipy"
     slow = True
@@ -93,10 +93,11 @@ class SciPy(Integrator):
         return (np.abs(result.y[2]), abs(result.sol(time)[2])) if result.success else None
 
 
-# `operations` of an evaluation besides the rate: 2 (*, +) for each term, times 4 components.
-# DOP853: about 6 terms for the state of the next evaluation, 4 for the end of the step and error.
-# LSODA: 21 terms that predict 6 derivatives, and 2 * 4^2 operations to solve 4 linear equations.
-# `factorising`: 2/3 * 4^3 operations of an LU factorisation, in LSODA only.
+# `operations` is what an evaluation costs besides the rate. In sums over the 4 components of the
+# state, each term costs 4 * 2 operations (a product and an addition).
+# DOP853 adds about 6 terms for the next evaluation, and 4 for the end of the step and the error.
+# LSODA adds 21 terms, and solves 4 linear equations with 2 * 4^2 operations.
+# `factorising` is what an LU factorisation costs: 2/3 * 4^3. Only LSODA needs it.
 INTEGRATORS = (
     SciPy("DOP853", 4, operations=4 * 2 * (6 + 4)),
     SciPy("LSODA", 5, operations=4 * 2 * 21 + 2 * 4**2, factorising=2 * 4**3 // 3),

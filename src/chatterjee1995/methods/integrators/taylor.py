@@ -1,4 +1,4 @@
-"""The library's own integrator, Taylor series with steps that end at contacts, for any orders."""
+"""The library's own integrator: Taylor series of any order, with steps that end at contacts."""
 
 import numpy as np
 from numpy.polynomial.polynomial import polyder, polyval
@@ -24,16 +24,16 @@ from impact_damper.motions import traces
 FLIGHT, MEETING, CONTACT = range(3)
 # Orders of the library's series: in flight, and in contact.
 ORDERS = FLIGHT_ORDER, CONTACT_ORDER
-# Columns of a step's row: time at the beginning, length, wall in contact before the step, wall in
-# contact after it (-1, 1, or 0 for none). From column SERIES on: Taylor coefficients of Z1.
-# ROWS is the largest number of steps in one call of `take_steps`.
+# A step is stored as a row: its beginning, its length, the wall in contact before it, and the wall
+# in contact after it (-1, 1, or 0 for none). From column SERIES on the row holds the Taylor
+# coefficients of Z1. ROWS is the largest number of steps in one call of `take_steps`.
 ROWS, SERIES = 4096, 4
 PARTS = 8  # number of parts of a step; `turning_points` finds at most one zero of Z1' in a part
 
 
 @kernel
 def take_steps(steps, p, y, side, t, end, tolerance, flight_order, contact_order, rows):
-    """Integrate y towards `end`, with a row for each step; return row count, last time, wall."""
+    """Integrate y until `end`, or until `rows` is full; return row count, time and wall."""
     work = aligned(steps[3])
     a, count = pointer(work), 0
     write_trajectory(p, y, side, tolerance, a)
@@ -56,14 +56,14 @@ def take_steps(steps, p, y, side, t, end, tolerance, flight_order, contact_order
 
 
 def steps_of(orders):
-    """Return the addresses of three compiled functions for `take_steps`, and a workspace size."""
+    """Return the argument `steps` of `take_steps`: addresses of functions, size of a workspace."""
     module = instance(1, *orders)
     called = module.flight_step, module.contact_step, module.constant_series
     return np.array([*(compiled(each).address for each in called), module.SIZE])
 
 
 def all_steps(p, start, t, periods, tolerance, orders=ORDERS):
-    """Run from `start` at t; return a row for each step, and the last state (NaN if it fails)."""
+    """Run from `start` at the time t; return a row for each step, and the last state (or NaN)."""
     y, side = start.copy(), side_of(p, start)
     end, parts = t + periods * 2 * np.pi / p[FREQUENCY], []
     while t < end:
@@ -76,7 +76,7 @@ def all_steps(p, start, t, periods, tolerance, orders=ORDERS):
 
 
 def taylor(p, start, t, periods, tolerance, orders=ORDERS):
-    """Return the `Run` from the state `start` at the time t."""
+    """Return the `Run` that begins with the state `start` at the time t."""
     rows, end = all_steps(p, start, t, periods, tolerance, orders)
     work = work_of_steps(counted(rows), orders)
     if not np.isfinite(end).all():
@@ -93,7 +93,7 @@ def taylor(p, start, t, periods, tolerance, orders=ORDERS):
 
 
 def turning_points(rows, series):
-    """For each turning point of Z1 return the step's index, and the time since the step began."""
+    """Find the turning points of Z1; return the index of the step and the time within it."""
     slopes = polyder(series)
     edges = np.linspace(0, rows[:, 1], PARTS + 1)
     speeds = np.array([polyval(t, slopes, tensor=False) for t in edges])
@@ -111,12 +111,12 @@ def counted(rows):
 
 
 def work_of_steps(counts, orders=ORDERS, tangents=False):
-    """Return the operations of steps of each kind; `tangents`: with the variational equations."""
+    """Return the operations of all steps. `counts` is the number of steps of each kind."""
     return sum(count * step_work(kind, orders, tangents) for kind, count in enumerate(counts))
 
 
 def step_work(kind, orders=ORDERS, tangents=False):
-    """Return the operations of a step, by formulas that agree with the kernels within 1 %."""
+    """Return the operations of a step, within 1 % of what the kernels really do."""
     n = orders[kind == CONTACT]
     if kind == CONTACT:
         return 1.5 * n**2 + 40 * n + 405 + tangents * (4.5 * n**2 + 73 * n)
@@ -125,7 +125,7 @@ def step_work(kind, orders=ORDERS, tangents=False):
 
 
 class Taylor(Integrator):
-    """The event-driven Taylor series of the library."""
+    """The Taylor series of the library, whose steps end at contacts."""
 
     name, title, place, tolerances = "taylor", "Taylor series", 0, "taylor"
     compared = ("accuracy", "missed_contacts")
