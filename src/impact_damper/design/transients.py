@@ -156,7 +156,7 @@ def decay(machine, damper, displacement):
 
 
 def lowest_energy(p, y) -> float:
-    """Return the energy at rest, when gravity or friction holds the loose mass, if they act."""
+    """Return the energy at rest. Gravity puts the loose mass on a wall unless friction holds it."""
     if not p[INVERSE_MASS_RATIO]:
         return 0.0
     weight = p[GRAVITY] / p[INVERSE_MASS_RATIO]
