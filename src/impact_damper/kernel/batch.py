@@ -27,7 +27,7 @@ flight_step, contact_step = by_address(_MANY.flight_step), by_address(_MANY.cont
 flight_tangents = by_address(_MANY.flight_tangents)
 contact_tangents = by_address(_MANY.contact_tangents)
 SIZE, TANGENT_SIZE = _MANY.SIZE, _MANY.TANGENT_SIZE
-# Indices of rows (`instances.rows`). `Pool.numbers[m, k]` is the number of trajectory m in row k.
+# Indices of rows (`instances.rows`). `Pool.numbers[m, k]` belongs to trajectory m and row k.
 STATE, SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
     row // LANES
     for row in (_MANY.Y0, _MANY.SIDE, _MANY.TIME, _MANY.LONGEST, _MANY.TOLERANCE, _MANY.LENGTH)
@@ -188,7 +188,7 @@ def scatter(pool, chosen, count, kind, arrived):
 
 @kernel_only
 def raise_largest(pool, chosen, count, order):
-    """Update `pool.largest`, the largest |Z1| of a trajectory, for the chosen ones after a step."""
+    """After a step, update `pool.largest`, the largest |Z1| of each chosen trajectory."""
     series = np.empty(max(FLIGHT_ORDER, CONTACT_ORDER) + 1)
     for lane in range(count):
         m = chosen[lane]

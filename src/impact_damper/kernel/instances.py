@@ -109,7 +109,7 @@ def _source(writer):
     lines = "".join(f"{name} = {value}\n" for name, value in constants.items())
     templates = forcing, root_search, across, friction, contact, separation, step
     text = "\n\n".join([lines, writer.text(), *map(inspect.getsource, templates)])
-    # Kernels can call a function with the arguments a or a, d after `template` has wrapped it.
+    # `template` wraps each function of a, or of a and d, so that kernels can call it.
     pattern = r"^def (\w+)\((a|a, d)\):$(?!\n    for i in range\(\d+\):)"
     for name, arguments in re.findall(pattern, text, re.MULTILINE):
         text += f"\n\ndef call_{name}({arguments}):\n    {name}({arguments})\n"
@@ -120,7 +120,7 @@ def _source(writer):
 def rows(flight_order, contact_order):
     """Return a dictionary from names of rows to indices. The index of a series is its first row.
 
-    Other keys: PARTS is the first row of partial sums, ROWS and TANGENT_ROWS count all rows.
+    Other keys: PARTS (first row of partial sums), ROWS and TANGENT_ROWS (numbers of rows).
     """
     length = max(flight_order, contact_order) + 1
     single = {name: number for number, name in enumerate(SINGLE)}
@@ -158,7 +158,7 @@ class Writer:
     def function(self, name, lines, tangent=False, first=(), side_by_side=4):
         """Return the source code of a kernel that executes `lines` for each lane.
 
-        With one lane the lines `first` may come before, with `side_by_side` coefficients at once.
+        With one lane the lines `first` may come before. They use `side_by_side` numbers at once.
         """
         arguments, lanes = ("a, d", self.tangents) if tangent else ("a", self.lanes)
         text, calls = "", ""
@@ -175,7 +175,7 @@ class Writer:
         return "XQ" if phase == "contact" else "X"
 
     def constant_series(self):
-        """Return the code of a kernel for the series E, H, D, which depend on parameters only."""
+        """Return the code of a kernel for the series that depend on parameters only: E, H, D."""
         lines = (self._computed(k, "EHD") for k in range(max(self.orders.values()) - 1))
         return self.function("constant_series", self._stored(chain.from_iterable(lines), "EHD"))
 

@@ -117,7 +117,7 @@ def turning_time(c, order, begin, end, first, last):
 
 @kernel_only
 def write_trajectory(p, y, side, tolerance, a):
-    """Write a trajectory into a workspace, but do not call `constant_series`."""
+    """Write the parameters, state, `side` and tolerance of a trajectory into a workspace."""
     for i in range(packed.COUNT):
         a[PARAMETERS + i] = p[i]
     for i in range(4):
@@ -129,7 +129,7 @@ def write_trajectory(p, y, side, tolerance, a):
 
 @kernel_only
 def load(p, y, side, tolerance, a):
-    """Write a trajectory into a workspace. Call `constant_series` if W, h or the dashpot is new."""
+    """Write a trajectory into a workspace, and the series that depend on parameters only."""
     kept = True
     for i in (FREQUENCY, DAMPING, DASHPOT):
         kept = kept and a[PARAMETERS + i] == p[i]

@@ -46,7 +46,7 @@ def step_all(count, t, longest, a, d):
 
 @kernel
 def step_with_tangents(p, y, tangents, side, t, longest, tolerance, work):
-    """Do a step like `single.step`, also of up to four `tangents`, shape (m, 4), in place."""
+    """Do a step like `single.step`. Integrate up to four `tangents`, shape (m, 4), in place."""
     a, d = pointer(work), pointer(work[BEHIND:])
     load(p, y, side, tolerance, a)
     load_tangents(tangents, d)

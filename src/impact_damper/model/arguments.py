@@ -73,7 +73,7 @@ def read_system(system, damper=None, *, needs_damper=False) -> Model:
 
 
 def read_forced(system, damper, frequency, *, needs_damper=False) -> Model:
-    """Return the `Model` with a forcing frequency. For a machine the argument is in Hz."""
+    """Return the `Model` with a forcing frequency. For a machine `frequency` is in Hz."""
     model = read_system(system, damper, needs_damper=needs_damper)
     own = model.scales.read("frequency", frequency, "frequency", **FREQUENCY_RANGE)
     return model._replace(frequency=own)

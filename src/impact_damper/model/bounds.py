@@ -26,7 +26,7 @@ STIFFNESS_RANGE = {"least": 1e-6, "most": 1e9}
 MOST_STIFF = 1e6
 # Range of the radius of the ball in which random starts lie.
 RADIUS_RANGE = {"above": 0.0, "most": 1e3}
-# Largest radius of this ball divided by the clearance.
+# Largest radius of the ball of random starts, divided by the clearance.
 MOST_RADIUS = 1e3
 # Bounds of the fields of `settling.Settling`.
 TOLERANCE_RANGE = {"least": 1e-14, "most": 1e-3, "why": "rounding errors exceed smaller ones"}
@@ -81,7 +81,7 @@ def check_number(
     """Return `value` as a float, or raise an error if it is not allowed.
 
     Raise TypeError for a value that is no real number, such as True. Raise ValueError if the value
-    is not finite, or is out of bounds. If given, `given` is the value in the message.
+    is not finite, or is out of bounds. The message shows `given`, if it is not empty.
     """
     value = unlabelled(name, value)
     if isinstance(value, bool) or not isinstance(value, numbers.Real):

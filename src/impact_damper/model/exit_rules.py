@@ -29,7 +29,7 @@ def restitution(ratio) -> float:
 
 @cache
 def damping_ratio(restitution_, rule=ZERO_PENETRATION) -> float:
-    """Return the damping ratio at which contacts have this restitution. `rule` ends contacts."""
+    """Return the damping ratio of contacts that have this restitution and end by this rule."""
     logarithm = math.log(1 / restitution_)
     if rule == ZERO_PENETRATION or not logarithm:
         return logarithm / math.hypot(math.pi, logarithm)

@@ -13,7 +13,7 @@ from impact_damper.model.parameters import Damper, Oscillator
 PARAMETERS = {"frequency": None}
 PARAMETERS |= dict.fromkeys(("damping", "cubic", "force", "unbalance"), Oscillator)
 PARAMETERS |= dict.fromkeys(("mass_ratio", "clearance", "restitution", "contact_stiffness"), Damper)
-# The coordinate along a branch is the parameter itself for these, otherwise its logarithm.
+# For these parameters the coordinate along a branch is the parameter, for others its logarithm.
 LINEAR = ("frequency", "cubic", "force", "unbalance", "restitution")
 # Indices, in packed parameters, of F and U in the amplitude F + U W^2 of the forcing.
 FORCING = {"force": FORCE, "unbalance": UNBALANCE}
@@ -31,7 +31,7 @@ def facts_of(parameter) -> tuple:
 def read_followed(model, parameter, span) -> tuple:
     """Check `parameter` and `span`. Return the key in PARAMETERS and the dimensionless span.
 
-    A `Machine` has other names for some parameters. The parameter of `model` must be in the span.
+    A `Machine` has other names for some parameters. The value in `model` must lie in the span.
     """
     scales, damper = model.scales, model.damper
     names = {facts_of(name)[0] if scales.si else name: name for name in PARAMETERS}

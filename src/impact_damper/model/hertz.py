@@ -11,7 +11,7 @@ from typing import NamedTuple
 from impact_damper.model.bounds import names_arguments
 from impact_damper.model.units import convert, optional, physical
 
-# An elastic impact lasts DURATION q/v. q is the largest compression, and v the speed before.
+# An elastic impact lasts DURATION q/v. q is the largest compression, and v the speed before it.
 # DURATION is (4/5) sqrt(pi) Gamma(2/5)/Gamma(9/10).
 DURATION = 2.9432752
 # A material under a ball yields if p0, the pressure at the centre of the contact, is at least YIELD
@@ -111,6 +111,6 @@ class HertzContact:
     def stiffness(self, speed, mass) -> float:
         """Return the stiffness k (N/m) of a linear spring that the same impact compresses as far.
 
-        k q^2/2 = m v^2/2 (`compression` explains q, m, v). k q is 4/5 of the force after Hertz.
+        k q^2/2 = m v^2/2 (`compression` explains q, m, v). k q is 4/5 of the `force` of `Impact`.
         """
         return 0.8 * self.coefficient * self.compression(speed, mass) ** 0.5

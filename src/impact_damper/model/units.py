@@ -111,7 +111,7 @@ def _from_dataset(value):
 
 @cache
 def _factor(text, unit):
-    """Return the factor that converts the unit `text` to the SI unit `unit`, or None."""
+    """Return the factor that converts the unit `text` to the SI unit `unit`; None if impossible."""
     import pint  # takes a third of a second; plain numbers do without pint
 
     registry = pint.get_application_registry()

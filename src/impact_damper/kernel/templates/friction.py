@@ -2,11 +2,11 @@
 
 SLIDE is the sign of Z2'. While the loose mass slides, friction changes Z1'' by PUSH and Z2'' - Z1''
 by -FRICTION * SLIDE. While the loose mass sticks (STUCK is 1), both masses move together. Let g be
-Z1'' without the damper (the row G includes friction). Then
+Z1'' without the damper and without friction. Then
 
     (1 + rm) Z1'' = g - rm (GRAVITY - BASE A cos(W T))
 
-The loose mass sticks as long as the friction that this needs is below FRICTION.
+The loose mass sticks as long as the friction needed to hold it is below FRICTION.
 """
 
 
@@ -71,7 +71,7 @@ def let_go(a):
 
 
 def load_rates(a):
-    """With one lane, compute the series H and D for a new damping and a new wall's dashpot."""
+    """With one lane, compute the series H and D again after damping and dashpot have changed."""
     if LANES == 1:
         for k in range(max(FLIGHT_ORDER, CONTACT_ORDER) - 1):
             a[H + k] = a[DAMPING] * (1.0 / max(k, 1))
@@ -101,7 +101,7 @@ def find_turn(a, touching):
     """Find the first turn or slip before T. `touching` says whether the step is in contact.
 
     At a turn a sliding loose mass stops (Z2' = 0). At a slip a sticking loose mass begins to slide.
-    In both cases MODE becomes TURNED, T the time of the event, and END_Z1, ... the state then.
+    MODE becomes TURNED, T becomes the time of the event, and rows END_Z1, ... receive the state.
     """
     if touching:
         contact_jerk(a)
@@ -197,8 +197,8 @@ def keep_tangents(a, d):
 def friction_jump(a, d):
     """Let tangents jump when a sliding loose mass stops (saltation matrix). Undo `keep_tangents`.
 
-    Then friction per unit of loose mass jumps by J. Let b be Z2'' before the jump, and w be
-    the tangent's Z2'. The tangent's Z1' jumps by -rm w J/b, and w jumps by -(1 + rm) w J/b. If the
+    Then the friction per unit of loose mass jumps by J. Let b be Z2'' before the jump, and w be the
+    tangent's Z2'. The tangent's Z1' jumps by -rm w J/b, and w jumps by -(1 + rm) w J/b. If the
     loose mass has stuck during the step, w becomes 0, and the tangent's Z2 becomes KEPT.
     """
     for i in range(TANGENTS):

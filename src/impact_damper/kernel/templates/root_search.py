@@ -90,9 +90,9 @@ def bracketed_step(a, i, t, f, first, bend, rate, fine):
 
 
 def store_end(a, i, row, end, move, going):
-    """If `going` is true, store a function's value after the time `move` in the row `end`.
+    """Store a function's value and slope, after the time `move`, in the two rows from `end` on.
 
-    The next row gets the slope. Four rows from `row` on hold the value and derivatives now.
+    The four rows from `row` on hold its value and three derivatives. Do nothing if not `going`.
     """
     value, slope = a[row + i], a[row + LANES + i]
     curve, jerk = a[row + 2 * LANES + i], a[row + 3 * LANES + i]

@@ -15,8 +15,8 @@ ONE = 1023 << 52
 # The last terms of series should be below SAFETY * tolerance * max(1, |Z1|, |Z1'|, ...).
 # Contacts amplify errors. With 0.05 the errors of settled motions are below 10 times the tolerance.
 SAFETY = 0.05
-# A flight is shortened if its last terms exceed EXCESS times `largest_tail`. With EXCESS = 1 many
-# flights would be shortened, because `predict_length` is not exact.
+# A flight is shortened if the last terms of its series exceed EXCESS times `largest_tail`. With
+# EXCESS = 1 many flights would be shortened, because `predict_length` is not exact.
 EXCESS = 4.0
 # A step in flight that begins at |Z2| > d0, while the wall is still coming back to d0, lasts
 # at most OUTSIDE times LAG. In the time LAG the wall's displacement falls to 1/e of its value.
