@@ -51,7 +51,7 @@ class Labelled(NamedTuple):
 
     labels: Index of the attractor, or a negative flag if there is none, shape (m, n).
     periods: Number of forcing cycles after which the label is known, shape (m, n).
-    records: A `MOTION` for each attractor.
+    records: Record of each attractor (`records.MOTION`).
     label: Function that takes states, shape (k, 4), and returns their labels and periods.
     """
 
@@ -179,7 +179,6 @@ def basins(
 
 
 def _sides(scales, sizes, displacement, velocity):
-    """Return the least and the greatest value on each axis of the plane, shape (2, 2)."""
     sides = np.outer(WIDTH * sizes, (-1.0, 1.0))
     given = ("displacement", displacement, bounds.FARTHEST), ("velocity", velocity, bounds.FASTEST)
     for row, (name, value, most) in zip(sides, given, strict=True):
@@ -413,7 +412,7 @@ def robustness(p, found, phase, widest, shock, within) -> dict:
 
 
 def _after(found, index, states, shocks):
-    """Return for each shock whether a motion leaves the attractor, and the most cycles needed."""
+    """Return for each shock whether motions leave the attractor, and the longest run in cycles."""
     pushed = np.repeat(states, len(shocks), axis=0)
     pushed[:, 1::2] += np.tile(shocks, len(states))[:, None]
     labels, periods = (each.reshape(len(states), -1) for each in found.label(pushed))

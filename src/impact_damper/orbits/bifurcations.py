@@ -162,7 +162,6 @@ def _changes_of_contact(point_at, start, end, length):
 
 
 def _contact_event(orbit):
-    """Return "merging" or "grazing". The event concerns the contact that begins most slowly."""
     contacts = orbit.contacts
     k = int(np.argmin(np.abs(contacts[:, 3])))
     period = 2 * np.pi / orbit.p[FREQUENCY]

@@ -208,7 +208,7 @@ def _next_pieces(point, span, length, search):
 
 
 def _ending(piece, first, span):
-    """Return why a branch ends on a piece ("" if it goes on), and the events before this end.
+    """Return why a branch ends between two points ("" if not), and the events before this end.
 
     Also return whether the event at this end could not be located. `first` is the first point of
     the branch, or None if the branch has too few points to be closed.

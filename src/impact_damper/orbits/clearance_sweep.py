@@ -171,7 +171,10 @@ def _quiet_motions(data, clearances, rule):
 
 
 def _stable_part(p, state, span):
-    """Return clearances and max |Z1| of stable orbits on a branch, and max |Z1| as a function."""
+    """Return clearances and max |Z1| of the stable orbits on the branch of an orbit.
+
+    Also return a function that computes max |Z1| for any clearance between them.
+    """
 
     def family(clearance):
         changed = p.copy()

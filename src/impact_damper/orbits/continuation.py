@@ -84,7 +84,7 @@ class Problem:
 
     @classmethod
     def of(cls, family, orbit, *, symmetric=None):
-        """Return the `Problem` of an orbit. `symmetric` is by default whether the orbit is."""
+        """Return the `Problem` of an orbit. By default a symmetric orbit has `symmetric` True."""
         if symmetric is None:
             symmetric = bool(orbit.record["asymmetry"] < SYMMETRIC)
         cycle = orbit.periods * TURN * (0.5 if symmetric else 1.0)
@@ -115,7 +115,7 @@ class Problem:
 
     @cached_property
     def metric(self):
-        """Weights of the squared components in the squared length of a vector, (m n + 1,)."""
+        """Weights of the squared unknowns in the squared length of a vector, shape (m n + 1,)."""
         m = len(self.phases) - 1
         return np.append(np.full(m * self.size, 1 / m), 1.0)
 
@@ -139,7 +139,7 @@ class Problem:
         return integrate(self.family(x[-1]), self.periods, self.phases, states, self.sign)
 
     def rate(self, value):
-        """Return the derivative of the array `p` by the parameter, at the parameter `value`."""
+        """Return the derivative of the array `p` by the parameter that varies, at its `value`."""
         ahead, behind = self.family(value + NUDGE), self.family(value - NUDGE)
         # Without a damper the clearance is infinite. Its derivative is set to 0.
         change = np.subtract(ahead, behind, out=np.zeros(len(ahead)), where=ahead < np.inf)
@@ -150,7 +150,6 @@ class Problem:
         return self._matrix(orbit, self._slopes(orbit, self.rate(x[-1])))
 
     def _slopes(self, orbit, rate):
-        """Return the derivatives of the segments' end states by the parameter, shape (m, n)."""
         slopes = np.empty((len(orbit.states), self.size))
         given = orbit.p, rate, self.phases, orbit.states, orbit.ends, self.sign
         slopes_of_ends(*given, POLISH_TOLERANCE, slopes)
@@ -203,7 +202,7 @@ class Problem:
         return np.linalg.lstsq(matrix, right, SINGULAR)[0]
 
     def near(self, x, border, length):
-        """Return the point that `correct` finds from x, or None if it is too far from x (ASIDE)."""
+        """Return the point that Newton's method finds from x, None if it is too far (see ASIDE)."""
         aside = ASIDE * abs(length) + min(ROUNDING, abs(length))
         point = self.correct(x, border, FAILING * aside)
         return None if point is None or self.length(point.x - x) > aside else point

@@ -14,15 +14,15 @@ from impact_damper.orbits import segments
 from impact_damper.orbits.continuation import NEWTON, Point, recut
 from impact_damper.orbits.segments import list_turns, slopes_of_ends
 
-# On that side of a grazing where orbits have more contacts, points are computed at |height| =
-# LEAST, LEAST x RATIO, LEAST x RATIO^2 and so on, up to MOST.
+# On the side of a grazing where orbits have more contacts, points are computed at which the
+# extremum is LEAST, LEAST x RATIO, LEAST x RATIO^2, ... up to MOST away from the wall.
 RATIO, LEAST, MOST = 10.0, 1e-13, 2e-5
 # If a step from one height to the next fails, a height between them is tried first: at most
 # HALVINGS times in each grazing, and at most HALVINGS_BETWEEN times in a row in `Passage.between`.
 HALVINGS, HALVINGS_BETWEEN = 8, 3
 # A step led to a more symmetric branch if max |`Orbit.deviation`| fell to FALLEN x its old value.
 FALLEN = 0.01
-# On the side where orbits have fewer contacts, points are computed at these |height|.
+# On the side where orbits have fewer contacts, the extremum has these distances from the wall.
 BESIDE = 1e-9, 2e-5
 # Newton's method fails if it must change an unknown by LARGEST or more. It has converged only if
 # the error of the height is below CLOSE x |height| + ROUNDING.
@@ -91,7 +91,7 @@ class Passage(NamedTuple):
 
 
 def guess(point, turn, height):
-    """Return the unknowns, on the tangent at a point, where an extremum has about `height`."""
+    """Return a point's unknowns, moved along the tangent until an extremum has about `height`."""
     return point.x + (height - turn.height) / (turn.gradient @ point.tangent) * point.tangent
 
 
@@ -121,7 +121,7 @@ def through_grazing(point, reach):
 
 
 def _along(point, turn, targets, direction, contacts):
-    """Compute points at the heights `targets` until this fails. Return them and their extrema."""
+    """Compute points at the heights `targets` until one fails. Return points, heights, extrema."""
     points, heights, turns = [point], [turn.height], [turn]
     pending, halvings = targets[::-1], 0
     while pending and halvings <= HALVINGS:
@@ -151,7 +151,10 @@ def _before(height, target):
 
 
 def _targets(height, sharp, direction):
-    """Return heights at which to compute points. Contacts are more where `sharp` x height > 0."""
+    """Return the heights of an extremum at which points of the branch are computed.
+
+    Orbits have more contacts where the height has the sign `sharp`.
+    """
     fine = LEAST * RATIO ** np.arange(1 + int(np.log(MOST / LEAST) / np.log(RATIO)))
     if direction == sharp:
         return list(sharp * fine)
@@ -217,7 +220,7 @@ def nearest(turns, turn):
 
 
 def next_grazing(point, reach):
-    """Return the extremum of Z2 that grazes first along the tangent within `reach`, or None."""
+    """Return the extremum of Z2 that reaches a wall first along a point's tangent, or None."""
     problem, candidates = point.problem, []
     ahead = turns_of(problem.shoot(point.x + SHIFT * point.tangent))
     for turn in turns_of(point.orbit):

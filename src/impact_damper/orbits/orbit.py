@@ -73,7 +73,7 @@ class Orbit:
 
     @cached_property
     def defects(self):
-        """End of each segment minus beginning of the next segment, shape (m, 4). Ideally 0."""
+        """Last state of each segment minus first state of the next segment, shape (m, 4)."""
         defects = np.empty_like(self.ends)
         defects[:-1] = self.ends[:-1] - self.states[1:]
         defects[-1] = self.sign * self.ends[-1] - self.states[0]
@@ -128,7 +128,7 @@ class Orbit:
 
     @cached_property
     def cycle_multipliers(self):
-        """Eigenvalues of `matrix`, 4 or 2 (see `active`), computed from `factors` more exactly."""
+        """Eigenvalues of `matrix`: 4 if the orbit has a contact, otherwise 2."""
         n = self.active
         return segments.multipliers(self.factors[:, :n, :n])
 
@@ -155,7 +155,7 @@ class Orbit:
         """Contacts, largest |Z1|, and complex first harmonics of Z1 and Z2, in all segments."""
         states, phases = self.states.copy(), self.phases
         if side_of(self.p, states[0]) != 0:
-            # The first contact began earlier. A survey of twice `cycle` includes its beginning.
+            # The first state lies in a contact. A survey of twice `cycle` includes its beginning.
             phases = self.phases[0] + np.array([0.0, 2 * self.cycle])
         times = phases / self.p[FREQUENCY]
         room, sums = 2 * CONTACTS * (self.periods + len(states)), np.empty((2, 2))
@@ -179,7 +179,7 @@ class Orbit:
 
     @cached_property
     def sequence(self):
-        """Walls in the order of contacts, such as "+-", wherever in the period the orbit begins."""
+        """Walls in the order of contacts, such as "+-", whichever contact in the orbit is first."""
         walls = "".join("+" if wall > 0 else "-" for wall in self.contacts[:, 0])
         return min((walls[k:] + walls[:k] for k in range(len(walls))), default="")
 

@@ -211,7 +211,6 @@ def _all_branches(system, damper, span, motions, progress):
 
 
 def _checked_orbit(model, state, period, phase):
-    """Return a checked state and the orbit near it. Raise ArithmeticError if none is found."""
     bounds.check_count("period", period, most=1000)
     if phase is None:
         carried = carried_phase(state)

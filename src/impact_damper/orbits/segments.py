@@ -27,8 +27,8 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 
 # Orthogonal iteration separates two multipliers only if the ratio of their moduli exceeds APART.
 APART = 30.0
-# Orthogonal iteration makes at most SWEEPS sweeps, and ends if a sweep changes the basis by less
-# than SETTLED. It separates two multipliers only if the last sweep changed it by less than COUPLED.
+# Orthogonal iteration ends after SWEEPS passes over the matrices, or if a pass changes the basis by
+# less than SETTLED. It separates two multipliers only if this last change is below COUPLED.
 SWEEPS, SETTLED, COUPLED = 14, 1e-15, 1e-8
 # If possible, a small disturbance grows by less than this factor along a segment.
 AMPLIFIED = 30.0
@@ -37,7 +37,7 @@ CLEAR = 0.05
 
 
 def run(p, state, tangents, begin, end):
-    """Integrate a state and its `tangents` (small disturbances) in place from `begin` to `end`."""
+    """Integrate a state and its tangents in place, from the phase `begin` to the phase `end`."""
     times = begin / p[FREQUENCY], end / p[FREQUENCY]
     advance(p, state, tangents, side_of(p, state), *times, POLISH_TOLERANCE, workspace())
 
@@ -52,7 +52,7 @@ def cyclic(factors):
 
 
 def multipliers(factors):
-    """Return the eigenvalues of the product of the matrices `factors`, but not from this product.
+    """Return the eigenvalues of a product of matrices `factors`, without forming the product.
 
     Orthogonal iteration makes the product block triangular. Each diagonal block has eigenvalues of
     similar moduli, such as a complex pair.
@@ -200,7 +200,7 @@ def list_turns(p, states, phases, tolerance, turns):
 
 @kernel
 def flow_all(p, states, tangents, times, tolerance):
-    """Integrate the states and `tangents` of all segments in place. Return the time in contact."""
+    """Integrate the states and tangents of all segments in place. Return the time in contact."""
     work, touching = workspace(), 0.0
     for k in range(len(states)):
         side = side_of(p, states[k])
@@ -212,7 +212,7 @@ def flow_all(p, states, tangents, times, tolerance):
 
 @kernel
 def slopes_of_ends(p, rate, phases, states, ends, sign, tolerance, slopes):
-    """Compute the derivatives of the segments' `ends` by a parameter, with central differences.
+    """Compute derivatives of the last states (`ends`) of m segments by a parameter.
 
     `rate` is the derivative of the array `p` by this parameter. `slopes`, shape (m, n), receives
     the first n components of each derivative. The last derivative is multiplied by `sign`.

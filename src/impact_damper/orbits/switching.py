@@ -31,7 +31,7 @@ MEETING = 1e-3
 
 
 def other_branch(event, *, stable=False) -> Point | None:
-    """Return a point of the branch that begins at an event, or None. If `stable`, it is stable."""
+    """Return a point (stable if `stable`) of the branch that begins at an event, or None."""
     leaving = _leaving(event)
     doubled = event.kind == "period_doubling"
 
@@ -133,7 +133,7 @@ def follow_others(branches, follow):
 
 
 def _more_symmetric(branches, branch, edge):
-    """Return the point at which a branch ends at an unknown, more symmetric branch, or None."""
+    """Return the point where a branch ends at a more symmetric branch, or None if that is known."""
     kind, point = branch.ends[edge], branch.points[edge]
     orbit, symmetric = point.orbit, kind == "symmetry_breaking"
     if kind not in LEAVING or orbit.periods > MET:
@@ -187,7 +187,7 @@ def ends_at(branches, number, edge, event):
 
 
 def met_by(branches, number, edge):
-    """Return the index of the branch at which the end `edge` of a branch lies, or -1."""
+    """Return the index of the branch at which the branch `number` ends, or -1. `edge`: its end."""
     for other, candidate in enumerate(branches):
         if other == number:
             continue

@@ -97,7 +97,7 @@ def runs(data, chosen):
 
 
 def parts_by_stability(value, size, stable):
-    """Split a branch where stability changes. Yield values, displacements, stability of parts."""
+    """Yield parameter, displacement and stability of each part of a branch of equal stability."""
     edges = [0, *(np.flatnonzero(np.diff(stable)) + 1), len(value)]
     for first, last in zip(edges, edges[1:], strict=False):
         if last > first:

@@ -70,7 +70,8 @@ def frequency_panel(axes, data):
 def over_frequency(data) -> tuple:
     """Return two curves of the promised displacement over the frequency.
 
-    The first is for nominal values, the second for the worst tolerated ones. NaN is interpolated.
+    The first curve is for nominal values, the second for the worst values within the tolerances.
+    Missing values (NaN) are interpolated.
     """
     frequency, table = data["promise_frequency"].values, data["promise_displacement"].values
     rows = []

@@ -75,7 +75,6 @@ def response(data, axes=None):
 
 
 def _kind(data):
-    """Return the kind of frequency response in a dataset, or "" for other datasets."""
     if "followed_value" in data and parameters_of(data).get("parameter") == "frequency":
         return "orbits"
     if "free_amplitude" in data:
@@ -87,7 +86,7 @@ def _kind(data):
 
 
 def _draw_orbits(axes, orbits, stable):
-    """Draw orbits, with a damper stable orbits only if `stable`, unstable orbits of period 1."""
+    """Draw periodic orbits. With a damper, stable orbits are drawn only if `stable`."""
     if not has_damper(orbits):
         draw_free_orbits(axes, orbits)
         return
@@ -153,7 +152,7 @@ def _draw_motions(axes, motions):
 
 
 def _branch_lines(motions, chosen):
-    """Yield frequencies and displacements of each branch and period, and of known branch ends."""
+    """Yield frequencies and displacements of a line for each branch, up to its known ends."""
     branch, period = motions["branch"].values, motions["period"].values
     names = ("end_branch", "end_direction", "end_value", "end_displacement")
     ends = list(zip(*(motions[name].values for name in names), strict=True))

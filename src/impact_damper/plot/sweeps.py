@@ -89,14 +89,14 @@ def _draw_sweep(axes, sweep, index):
 
 
 def _titles(sweeps):
-    """Return a text for each sweep: mass of the damper, and parameters that differ in sweeps."""
+    """Return a text for each sweep: parameters in which sweeps differ, and the damper's mass."""
     *others, masses = zip(*map(_parameters, sweeps), strict=True)
     different = [texts for texts in others if len(set(texts)) > 1]
     return [", ".join(words) for words in zip(*different, masses, strict=True)]
 
 
 def _parameters(sweep):
-    """Return a text for each parameter that may differ between sweeps. The mass is last."""
+    """Return a text for each parameter that may differ between sweeps, the damper's mass last."""
     values = parameters_of(sweep)
     if "machine" not in sweep.attrs:
         return [style.parameter_label(values, name) for name in VARIED]

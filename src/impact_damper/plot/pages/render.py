@@ -35,7 +35,8 @@ def conclusion(data) -> list[str]:
 def check_folder(folder, machine, force) -> None:
     """Raise OSError if files cannot be written into a folder.
 
-    Without `force`, also raise it if the folder has a foreign page or data of another machine.
+    Without `force`, also raise it if the folder has a page of another program, or data of another
+    machine.
     """
     check_writable(folder / "index.html")
     if force:
@@ -324,7 +325,7 @@ def _worse(data, nominal):
 
 
 def _other_mass(data, asked):
-    """Return a heavier damper that is good enough if the damper asked for is not, or None."""
+    """Return a damper with another mass that is good enough if the one asked for is not."""
     missed = named(data, "limit_status") == "missed"
     fails = missed or named(data, "decision") == "do_not_build"
     if "other_mass" not in data or not fails:
@@ -340,7 +341,6 @@ def _other_mass(data, asked):
 
 
 def _masses(data, asked):
-    """Return the rows of a table of dampers with other masses, [] if none was computed."""
     if "other_mass" not in data:
         return []
     names = ("other_mass", "other_gap", "other_displacement", "other_force")
@@ -352,7 +352,6 @@ def _masses(data, asked):
 
 
 def _transients(data, asked):
-    """Return the largest displacements in frequency sweeps (`swept`) and decay times (`rung`)."""
     if "sweep_envelope" not in data:
         return {"swept": [], "rung": None}
     low, high = asked["band"]
