@@ -57,7 +57,7 @@ def _pairs(point):
 
 
 def _product(values):
-    """Return the real part of the product of `values`, after moduli above 1 are reduced to 1."""
+    """Return the real part of a product of `values`, each scaled down to modulus 1 if larger."""
     return float((values / np.maximum(1, np.abs(values))).prod().real)
 
 

@@ -227,7 +227,6 @@ def _checked_orbit(model, state, period, phase):
 
 
 def _seeds(motions, damper):
-    """Yield period, frequency, max |Z1| and state of each motion from which to follow a branch."""
     for data in motions:
         chosen = data["outcome"].values == flag("outcome", "settled")
         if damper is not None:

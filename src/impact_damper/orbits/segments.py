@@ -43,7 +43,10 @@ def run(p, state, tangents, begin, end):
 
 
 def cyclic(factors):
-    """Return the derivative of `Orbit.defects` by the first states of m segments, (m n, m n)."""
+    """Return the matrix of Newton's method for an orbit of m segments, shape (m n, m n).
+
+    It is the derivative of the gaps between segments (`Orbit.defects`) by all first states.
+    """
     m, n = factors.shape[:2]
     matrix, k = np.zeros((m, n, m, n)), np.arange(m)
     matrix[k, :, k] = factors

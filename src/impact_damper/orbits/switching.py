@@ -52,7 +52,7 @@ def other_branch(event, *, stable=False) -> Point | None:
 
 
 def _leaving(event):
-    """Return the `Problem` of the branch that begins at an event, its unknowns and direction."""
+    """Return the `Problem` of the branch that begins at an event, and its first x and direction."""
     point, problem = event.point, event.point.problem
     doubled = event.kind == "period_doubling"
     # The state one `problem.cycle` later is `sign` times the state. In the new direction a small
@@ -133,7 +133,7 @@ def follow_others(branches, follow):
 
 
 def _more_symmetric(branches, branch, edge):
-    """Return the point where a branch ends at a more symmetric branch, or None if that is known."""
+    """Return the point at which a branch ends at a new, more symmetric branch, or None."""
     kind, point = branch.ends[edge], branch.points[edge]
     orbit, symmetric = point.orbit, kind == "symmetry_breaking"
     if kind not in LEAVING or orbit.periods > MET:
@@ -187,7 +187,10 @@ def ends_at(branches, number, edge, event):
 
 
 def met_by(branches, number, edge):
-    """Return the index of the branch at which the branch `number` ends, or -1. `edge`: its end."""
+    """Return the index of the branch at which the branch `number` begins or ends, or -1.
+
+    `edge` is 0 for the first point of the branch `number`, and 1 for its last point.
+    """
     for other, candidate in enumerate(branches):
         if other == number:
             continue

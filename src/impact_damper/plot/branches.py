@@ -122,7 +122,6 @@ def _mark_open_ends(axes, data):
 
 
 def _mark_events(axes, data):
-    """Mark those events at which the orbit, or an orbit beside it on the branch, is stable."""
     number, branches = data["orbit_branch"].values, data["event_branch"].values
     stable = data["orbit_stability"].values == flag("orbit_stability", "stable")
     place = np.searchsorted(number, branches) + data["event_place"].values

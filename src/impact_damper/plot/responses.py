@@ -86,7 +86,6 @@ def _kind(data):
 
 
 def _draw_orbits(axes, orbits, stable):
-    """Draw periodic orbits. With a damper, stable orbits are drawn only if `stable`."""
     if not has_damper(orbits):
         draw_free_orbits(axes, orbits)
         return
@@ -132,7 +131,6 @@ def _draw_unstable(axes, balance):
 
 
 def _draw_motions(axes, motions):
-    """Draw motions from random starts. Lines join motions that have settled. Others are points."""
     period, settled = motions["period"].values, is_settled(motions)
     if has_damper(motions):
         settled = settled & (motions["contacts"].values > 0)

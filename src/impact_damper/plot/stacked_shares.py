@@ -87,7 +87,7 @@ def _look(kind, rank):
 
 
 def _ranked_motions(data):
-    """Return kind, rank and mask of each motion. Of a kind, rank 0 is the motion of most starts."""
+    """Return kind, rank and mask of each motion. Of a kind, the most frequent motion has rank 0."""
     found, ranks = {kind: [] for kind in LOOKS}, Counter()
     for each in families(data):
         if each.starts:

@@ -89,7 +89,6 @@ def _draw_sweep(axes, sweep, index):
 
 
 def _titles(sweeps):
-    """Return a text for each sweep: parameters in which sweeps differ, and the damper's mass."""
     *others, masses = zip(*map(_parameters, sweeps), strict=True)
     different = [texts for texts in others if len(set(texts)) > 1]
     return [", ".join(words) for words in zip(*different, masses, strict=True)]

@@ -246,7 +246,6 @@ def _hits(data) -> float:
 
 
 def _peak(data, name) -> SimpleNamespace:
-    """Return the largest value of a variable over the band, and its frequency, or NaN for both."""
     if name not in data or np.isnan(data[name]).all():
         return SimpleNamespace(size=np.nan, frequency=np.nan)
     k = int(np.nanargmax(data[name].values))
