@@ -59,7 +59,7 @@ class Attractors(NamedTuple):
 
 
 def find_attractors(p, states, settling) -> Attractors:
-    """Return the attractors to which `states` lead: rows (Z1, Z1') at the strobe, shape (n, 2)."""
+    """Return the attractors to which free motions lead from `states`, (Z1, Z1') at the strobe."""
     starts = np.tile(np.asarray(states, float).reshape(-1, 2), 2)
     motions = ensemble.settle(np.tile(p, (len(starts), 1)), starts, settling, from_strobe=True)
     return with_neighbourhoods(p, _distinct(p, motions[is_settled(motions)]))
@@ -106,7 +106,7 @@ def _distinct(p, motions):
 
 
 def linear_flow(p, state, periods):
-    """Return Z1 (n,) along an orbit, and dz(t)/dz(0) (n, 2, 2) for its state z = (Z1, Z1')."""
+    """Return Z1 (n,) along an orbit, and the derivatives dz(t)/dz(0) (n, 2, 2) of z = (Z1, Z1')."""
     y, tangents, work = np.tile(state, 2), np.eye(4)[:2].copy(), workspace()
     times = strobe_time(p) + np.arange(periods * STEPS + 1) * 2 * np.pi / (STEPS * p[FREQUENCY])
     displacement, matrices = [y[0]], [np.eye(2)]
@@ -118,7 +118,10 @@ def linear_flow(p, state, periods):
 
 
 def neighbourhood(p, state, periods):
-    """Return the matrix S of a neighbourhood |S (z - state)| < 1. S is infinite without a proof."""
+    """Return the matrix S of a neighbourhood |S (z - state)| < 1 of an orbit with this state.
+
+    S is infinite if no neighbourhood can be proved.
+    """
     displacement, matrices = linear_flow(p, state, periods)
     values, vectors = np.linalg.eig(matrices[-1])
     if not np.max(np.abs(values)) < 1:
@@ -238,9 +241,10 @@ def release_set(oscillator, frequency, settling, *, cells=64, workers=1) -> Rele
 
 
 def _refined(inside, half, cells):
-    """Return a mask of a grid's fine cells in a set. `inside(states)` is True for states in it."""
+    """Return a mask of the fine cells of a grid in a set. `inside(states)` tells which are."""
     mask = inside(_centres(half, cells)).reshape(cells, cells)
     for _ in range(int(math.log2(REFINED))):
+        # Only the parts of cells at the edge of the set are tested again.
         edge = maximum_filter(mask, 3) != minimum_filter(mask, 3)
         fine, edge = (np.kron(each, np.ones((2, 2), bool)) for each in (mask, edge))
         cells *= 2

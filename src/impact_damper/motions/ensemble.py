@@ -109,7 +109,7 @@ SIDE_BY_SIDE = settle_many, follow_many
 
 @kernel
 def take(pool, m, i, parameters, states, start, tolerance, seen, out):
-    """Put motion i, if there are so many motions, at index m of the pool of running motions."""
+    """Put motion i, if it exists, at index m of the pool of running motions."""
     if i < len(out):
         p, y = parameters[i], states[i]
         begin_watch(seen[m], i, out[i])
@@ -119,7 +119,7 @@ def take(pool, m, i, parameters, states, start, tolerance, seen, out):
 
 @kernel_only
 def take_state(pool, m, i, p, states, begin, first, tolerance, y, taken, strobes):
-    """Put the free motion from states[i], if there is such a state, at index m of the pool."""
+    """Put the free motion from states[i], if it exists, at index m of the pool of motions."""
     if i < len(states):
         taken[m], strobes[m] = i, 0
         y[0], y[1], y[2], y[3] = states[i, 0], states[i, 1], states[i, 0], states[i, 1]

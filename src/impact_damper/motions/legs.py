@@ -123,7 +123,10 @@ def hold_by_state(off, on, y, wait, place, strobe, tolerance, longest, releases)
 
 @kernel
 def depth_of(depth, half, phase, x, v):
-    """Return the depth of Z1 = x, Z1' = v in a `ReleaseSet`, or -infinity outside its grid."""
+    """Return the distance of the state Z1 = x, Z1' = v from the edge of a release set.
+
+    The distance is negative outside the set, and -infinity outside the grid `depth`.
+    """
     if not (abs(x) <= half[0] and abs(v) <= half[1]):
         return -math.inf
     cells = depth.shape[1]

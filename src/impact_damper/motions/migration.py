@@ -228,10 +228,7 @@ def control(case, draws, longest_hold, settling, periods, releases, stop=NEVER):
 
 
 def course(case, path, log, tolerance):
-    """Return times T and Z1 along a run, with MARGIN forcing cycles before and after the run.
-
-    The motion is computed anew from each row of the path, since errors grow in a chaotic motion.
-    """
+    """Return times T and Z1 along a run, with MARGIN forcing cycles before and after the run."""
     period = 2 * np.pi / case.on[FREQUENCY]
     path = np.vstack([np.append(-MARGIN, case.state), path])
     ends = np.append(path[1:, 0], path[-1, 0] + MARGIN)
@@ -242,6 +239,7 @@ def course(case, path, log, tolerance):
     damped = np.searchsorted(switched, (path[:, 0] + ends) / 2) % 2 == 1
     cuts = np.searchsorted(cycles, np.append(path[:, 0], ends[-1]))
     parts = []
+    # Errors grow in a chaotic motion, so the motion is computed anew from each row of the path.
     for row, on, first, last in zip(path, damped, cuts, cuts[1:], strict=False):
         p, begin = case.on if on else case.off, (row[0] + 0.25) * period
         parts.append(states_at(p, row[1:], begin, times[first:last], tolerance))

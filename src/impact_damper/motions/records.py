@@ -24,14 +24,13 @@ from impact_damper.motions.traces import record_beginning
 PHASELESS = 1e-9
 # A motion is symmetric if its asymmetry is below this number.
 SYMMETRIC = 1e-6
-# Number of samples in a forcing cycle from which harmonics are computed, and cos, sin of W T there.
+# Number of samples in a forcing cycle from which harmonics are computed.
 SAMPLES = 64
 COSINE, SINE = (f(STROBE + 2 * np.pi * np.arange(SAMPLES) / SAMPLES) for f in (np.cos, np.sin))
 # `envelope` runs this number of windows in one call of a kernel. Ctrl-C waits until it ends.
 AT_ONCE = 1024
 # The argument `stop` of a run that no other thread can stop.
 NEVER = np.zeros(1, bool)
-
 UNRESOLVED, SETTLED, CHAOTIC, DIVERGED, NON_COLLIDING = range(5)
 ESCAPED, AT_REST, QUASI_PERIODIC, DRIFTING = range(5, 9)
 # Fields of a record. A run fills the fields up to `state`, `measure` the fields after `state`.
@@ -102,7 +101,7 @@ def survey(p, states, phases, times, tolerance, log, sums):
 
 @kernel_only
 def add_samples(c, order, moments, sample, count, sums):
-    """Add samples v of a polynomial to two sums: v COSINE to sums[0], and v SINE to sums[1]."""
+    """Add samples of a polynomial, times cos(W T) to sums[0], and times sin(W T) to sums[1]."""
     t0, t1, t2, t3 = moments
     v0 = v1 = v2 = v3 = c[order]
     for k in range(order - 1, -1, -1):
@@ -146,8 +145,8 @@ def measure_orbits(parameters, tolerance, out, stop):
     An orbit is integrated over its period, from its state at the strobe. If the period is odd, the
     asymmetry is the distance between the mirrored first state and the state half a period later;
     otherwise it is NaN. A harmonic is the complex number c in Re(c exp(i W T)). A record with the
-    period 0 receives infinite max |Z1|, and otherwise NaN. If another thread sets `stop[0]`, the
-    remaining records are not completed.
+    period 0 receives infinite max |Z1|, and NaN for all other measurements. If another thread sets
+    `stop[0]`, the remaining records are not completed.
     """
     nothing = complex(np.nan, np.nan)
     for i in range(len(out)):
@@ -261,7 +260,7 @@ def run_window(p, y, side, length, largest, tolerance, work):
 
 @kernel
 def run_windows(parameters, lengths, y, side, tolerance, largest, contacts):
-    """Run windows of `envelope`, until an escape at most; return the wall in contact at the end."""
+    """Run windows of `envelope` up to the last or to an escape; return the wall in contact then."""
     work = workspace()
     for k in range(len(lengths)):
         side, largest[k], begun = run_window(

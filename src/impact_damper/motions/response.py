@@ -25,7 +25,7 @@ from impact_damper.motions.watch import NEAR
 
 # APART: largest random change of Z1 and of Z1' in the first state of a run that measures a life.
 # CAPTURE: distance from an orbit at which a transient counts as ended.
-# CHECKED: forcing cycles for which a run without an end is continued: is it still chaotic?
+# CHECKED: number of forcing cycles for which a run that has not ended is continued, as a check.
 APART, CAPTURE, CHECKED = 1e-4, 0.1, 300
 
 
@@ -151,10 +151,7 @@ def find_lives(parameters, outcomes, states, runs, periods, seed, settling, **ru
 
 
 def _lives(parameters, states, periods, settling, **running):
-    """Return the life of each transient in forcing cycles, or `periods` + 1 if it does not end.
-
-    A run ends at the distance NEAR from an orbit. A life ends earlier, at the distance CAPTURE.
-    """
+    """Return the life of each transient in forcing cycles, or `periods` + 1 if it does not end."""
     records, stop = np.zeros(len(states), MOTION), np.zeros(1, bool)
 
     def work(part):
@@ -169,6 +166,7 @@ def _lives(parameters, states, periods, settling, **running):
     again = ensemble.settle(
         parameters[lasting], records["state"][lasting], checked, from_strobe=True, **running
     )
+    # A run ends at the distance NEAR from an orbit. A life ends earlier, at the distance CAPTURE.
     lives = records["periods_run"].astype(float)
     with np.errstate(divide="ignore", invalid="ignore"):
         decay = -np.log(np.abs(records["multiplier"])) / records["period"]

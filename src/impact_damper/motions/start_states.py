@@ -38,13 +38,13 @@ PLACES, VELOCITIES = (-2 / 3, 0.0, 2 / 3), (-1.0, 0.0, 1.0)
 # `sweep.stable_orbits` takes LOOSE_STATES random states of the loose mass. LOOSE_SPEED: largest
 # speed in them, divided by the larger of `_crossing_speed` and the largest |Z1'| of free motions.
 LOOSE_STATES, LOOSE_SPEED = 240, 2.0
-# With a softening spring, |Z1| and |Z1'| of random starts are at most WITHIN times `barrier`.
+# With a softening spring, |Z1|, |Z1'| of random starts are at most WITHIN times those of `barrier`.
 WITHIN = 0.7
 NO_STARTS, NO_LOOSE = np.empty((0, 4)), np.empty((0, 2))
 # Ramps. STEP: relative change of the parameter in a step. PERIODS: forcing cycles in a step.
-# RAISED: first force divided by last force. BELOW: an upward ramp to W begins at BELOW times the
-# lowest of W/2 and the frequencies of folds; a downward ramp begins at the highest of 2 W and the
-# frequencies of folds, divided by BELOW.
+# RAISED: first force divided by last force. BELOW: an upward ramp of the frequency to W begins at
+# BELOW times the lowest of W/2 and the frequencies of folds. A downward ramp begins at the highest
+# of 2 W and the frequencies of folds, divided by BELOW.
 STEP, PERIODS, BELOW, RAISED = 0.0125, 20, 0.9, 5.0
 
 
@@ -76,10 +76,7 @@ class Search(NamedTuple):
 
 
 def search_starts(oscillator, systems, count, radius, seed, settling, *, whole_gap=False) -> Search:
-    """Return a `Search` with `count` random starts in each system. A system is (damper or None, W).
-
-    If `whole_gap`, starts near rest are wanted, so a small radius causes no warning.
-    """
+    """Return a `Search` with `count` random starts for each system: (damper or None, W)."""
     if radius is None:
         numbered = enumerate(systems)
         rows = [wide_starts(oscillator, *each, count, [seed, i], settling) for i, each in numbered]
@@ -87,7 +84,7 @@ def search_starts(oscillator, systems, count, radius, seed, settling, *, whole_g
         frequencies = [frequency for _, frequency in systems]
         drawn = gap_states if whole_gap else random_states
         free = free_sizes(oscillator, frequencies)
-        if not whole_gap:
+        if not whole_gap:  # otherwise starts near rest are wanted
             warn_if_narrow(oscillator, frequencies, radius)
         rows = []
         for i, (damper, w) in enumerate(systems):
@@ -109,7 +106,7 @@ def missed_share(starts) -> float:
 
 
 def free_sizes(oscillator, frequencies) -> dict:
-    """Return for each frequency the largest |Z1| and |Z1'| of free motions (harmonic balance)."""
+    """Return for each frequency the largest free |Z1| and |Z1'| by harmonic balance, as a dict."""
     sizes = {w: float(balance_amplitudes(oscillator, w)[-1]) for w in dict.fromkeys(frequencies)}
     return {w: (size, size * w) for w, size in sizes.items()}
 
@@ -142,7 +139,7 @@ def gap_states(count, radius, damper, seed):
 
 
 def wide_starts(oscillator, damper, frequency, count, seed, settling) -> tuple:
-    """Return one system's starts, drawn without a radius, and sizes: its entries in a `Search`."""
+    """Return what a `Search` without a radius holds for one system, in the order of its fields."""
     free = free_motions(oscillator, frequency, settling)
     states, most = random_starts(oscillator, damper, frequency, count, seed, settling)
     if damper is None:
@@ -217,7 +214,7 @@ def ramped(oscillator, damper, frequency, tolerance) -> list:
 
 
 def _ramp(target, indices, factor, tolerance):
-    """Change some parameters slowly from `factor` times their `target`; return the last state."""
+    """Run a slow ramp of some parameters up to their values in `target`; return the last state."""
     p, state, none = target.copy(), np.zeros(4), np.empty((0, 4))
     for exponent in np.linspace(1, 0, 2 + math.ceil(abs(math.log(factor)) / STEP)):
         p[indices] = target[indices] * factor**exponent
@@ -236,10 +233,7 @@ def barrier(oscillator):
 
 
 class FreeMotions(NamedTuple):
-    """States of free motions at W T = 0, rows (Z1, Z1'), and the largest |Z1| and |Z1'| of all.
-
-    The largest values are taken over the whole of each motion.
-    """
+    """States (Z1, Z1') of free motions at W T = 0; largest |Z1| and |Z1'| in all these motions."""
 
     states: np.ndarray
     displacement: float

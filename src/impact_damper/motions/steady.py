@@ -120,7 +120,7 @@ def settle_with(
     """Run m motions until their outcomes are known; return an array of m records (`MOTION`).
 
     The motions start in `states` (m, 4) at the times `begins` (m,). `kernels` is ONE_BY_ONE, to run
-    one motion after the other, or `ensemble.SIDE_BY_SIDE`. For the rest see `ensemble.settle`.
+    one motion after the other, or `ensemble.SIDE_BY_SIDE`. Other arguments: see `ensemble.settle`.
     """
     settle, follow = kernels
     bounds.check_count("workers", workers, most=4096)

@@ -32,25 +32,26 @@ def strobe_time(p):
 
 @inlined
 def one_period(p, y, tangents, side, tolerance, work):
-    """Integrate y and its tangents from a strobe to the next; return the results of `advance`."""
+    """Integrate the state y and its tangents in place, from one strobe to the next.
+
+    Return the wall in contact, the number of contacts that began, and the time in contact.
+    """
     t = strobe_time(p)
     return advance(p, y, tangents, side, t, t + 2.0 * math.pi / p[FREQUENCY], tolerance, work)
 
 
 @kernel_only
 def speed_weight(p, side):
-    """Return the weight of Z2' in `distance`: 1 in flight, nearly 1/w in contact.
-
-    w is the natural frequency of the contact. A velocity v causes the penetration v/w.
-    """
+    """Return the factor by which `distance` multiplies Z2': 1 in flight, less in contact."""
     if side == 0:
         return 1.0
+    # In a contact with the natural frequency w, a velocity v leads to the penetration v/w.
     return 1.0 / math.sqrt(1.0 + p[CONTACT_STIFFNESS] * (1.0 + p[INVERSE_MASS_RATIO]))
 
 
 @kernel
 def distance(a, b, weight):
-    """Return the distance between states a and b: max |a - b|, with `weight` |a - b| in Z2'."""
+    """Return the largest component of |a - b|. The component in Z2' is multiplied by `weight`."""
     d = max(abs(a[0] - b[0]), abs(a[1] - b[1]))
     return max(d, max(abs(a[2] - b[2]), weight * abs(a[3] - b[3])))
 
@@ -77,7 +78,7 @@ def flow(p, state, tangents, begin, periods, half, tolerance):
 
 @inlined
 def period_map(p, y, periods, tolerance):
-    """Return the state z that follows y after `periods` cycles, dz/dy, and the contacts begun."""
+    """Return the state z that follows y after `periods` cycles, dz/dy, and a count of contacts."""
     half = np.bool_(False)  # for the literal False numba would compile `flow` again
     state, tangents, matrix = y.copy(), np.empty((4, 4)), np.empty((4, 4))
     for i in range(16):
@@ -90,7 +91,7 @@ def period_map(p, y, periods, tolerance):
 
 @kernel
 def solve(matrix, right):
-    """Solve a small linear system. The solution replaces `right`. Return the determinant."""
+    """Solve `matrix` x = `right`. The solution x replaces `right`. Return the determinant."""
     size = len(right)
     determinant = 1.0
     for k in range(size):

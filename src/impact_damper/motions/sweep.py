@@ -123,7 +123,7 @@ def _follow(source, target, index, settling, links, ends):
 
 
 def _end_event(record, multiplier, beyond):
-    """Return the event at which a branch ends. `beyond` is the motion to which its end leads."""
+    """Return the event at which a branch ends. Beyond its end, its last orbit leads to `beyond`."""
     if not abs(multiplier) >= CRITICAL:
         return "not_smooth"
     if abs(multiplier.imag) > COMPLEX:
@@ -208,7 +208,10 @@ class Catalogue:
         return None
 
     def add(self, record, origin):
-        """Add a motion. Keep the larger max |Z1| if it is known. Return the index of the motion."""
+        """Add the motion of a record, unless it is known; return the index of the motion.
+
+        Of two records of the same motion, the one with the larger max |Z1| is kept.
+        """
         i = self.find(record)
         if i is None:
             i = len(self.records)
@@ -261,7 +264,7 @@ def size_ratio(one, other):
 
 
 def add_orbits(catalogues, loose, settling, workers) -> None:
-    """Add orbits to each catalogue k. `loose[k]` has states of the loose mass for the search."""
+    """Search for further stable orbits at each value of the parameter; add them to `catalogues`."""
     found, stop = [np.empty((0, 4))] * len(catalogues), np.zeros(1, bool)
 
     def work(part):

@@ -7,7 +7,7 @@ from impact_damper.kernel.equation import has_escaped
 from impact_damper.kernel.single import LENGTH, assign, side_of, state_in_step, step, workspace
 
 # STEPS_AT_ONCE: largest number of steps in one call of the kernel. Ctrl-C waits until it ends.
-# ROWS: rows of the log at first. More are added when they are full.
+# ROWS: number of rows of a new log. More rows are added when the log is full.
 STEPS_AT_ONCE, ROWS = 50_000, 64
 
 
@@ -69,7 +69,7 @@ def trace_steps(p, y, t, side, sample, contacts, times, tolerance, states, log):
 
 @kernel_only
 def record_beginning(log, contacts, side, t, speed):
-    """Write the beginning of a contact into `log` if a row is left; return the new row number."""
+    """Log the beginning of a contact, if `log` has a row left; return the number of contacts."""
     if contacts < len(log):
         log[contacts, 0], log[contacts, 1], log[contacts, 2] = side, t, np.nan
         log[contacts, 3], log[contacts, 4] = speed, np.nan

@@ -21,7 +21,7 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE, one_period, polis
 from impact_damper.motions.watch import CONFIDENCE, LONGEST_PERIOD, NEAR, normalise
 
 # A motion is run in blocks. FIRST: largest number of forcing cycles in the first block.
-# BATCHES: number of batches in a block. The scatter of the batches' means gives standard errors.
+# BATCHES: number of batches in a block. Their scatter gives the standard error of a block's mean.
 FIRST, BATCHES = 1500, 30
 # A motion is chaotic only if its tangent grows in a block by more than the factor exp(GROWN). While
 # a motion leaves an unstable orbit, a rounding error grows by less, about 1e16 = exp(37).
@@ -36,9 +36,11 @@ NEIGHBOUR = 1e-3
 # Fields that are copied from a known quasi-periodic motion to a motion on the same closed curves.
 TORUS = ["outcome", "lyapunov_exponent", "lyapunov_error"]
 TORUS += ["first_frequency", "second_frequency", "frequency_error"]
-# AGREEMENT: largest accepted error of a rotation number. FEWEST: smallest number of points for one.
+# AGREEMENT: largest error with which a rotation number is accepted.
+# FEWEST: smallest number of points from which a rotation number is computed.
 AGREEMENT, FEWEST = 1e-8, 100
-# Advances, in revolutions modulo 1, are averaged only if there is a range so wide without any.
+# The advance of the angle from point to point is known modulo one revolution. Advances are averaged
+# only if some range of this width, in revolutions, contains none of them.
 INTERVAL = 0.02
 # TURN: largest change of the angle between neighbouring points of a closed curve, in revolutions.
 # WANDERING: largest sum of the moduli of these changes along the whole curve.
@@ -91,7 +93,6 @@ class _Curves(NamedTuple):
 
 
 def _name_one(p, record, limit, further, known, stop):
-    """Continue one motion and complete its record. Return the states of its last block."""
     y, tangent = record["state"][0].copy(), np.full((1, 4), 0.5)
     period, count = 2 * math.pi / p[FREQUENCY], min(limit, FIRST)
     states = np.empty((LONGEST_PERIOD, 4))
@@ -138,7 +139,6 @@ def _is_known(record, known, states):
 
 
 def _exponent(growth):
-    """Return the mean of `growth` and its standard error."""
     length = len(growth) // BATCHES
     batches = growth[-BATCHES * length :].reshape(BATCHES, length).mean(axis=1)
     return np.mean(batches), np.std(batches, ddof=1) / math.sqrt(BATCHES)
@@ -150,7 +150,7 @@ def _grows(growth, mean, error):
 
 
 def _on_orbit(p, record, states, contacts, limit):
-    """Look for a stable orbit near the last state; return the outcome, UNRESOLVED without one."""
+    """Look for a stable orbit near the last state; return the outcome (UNRESOLVED: no orbit)."""
     last, components = states[-1], 2 if contacts == 0 else 3
     before = states[-2 : -2 - LONGEST : -1]
     near = np.max(np.abs(before - last)[:, :components], axis=1) < NEAR

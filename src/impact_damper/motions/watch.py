@@ -25,7 +25,7 @@ from impact_damper.motions.strobe_map import (
 )
 
 # LONGEST_PERIOD: longest period of an orbit that is looked for, in forcing cycles.
-# RING: number of states that are stored, those at the last strobes.
+# RING: number of the last strobes at which the state is stored.
 LONGEST_PERIOD = 12
 RING = 2 * LONGEST_PERIOD + 1
 # A motion is chaotic if its Lyapunov exponent exceeds CONFIDENCE standard errors. An exponent below
@@ -70,7 +70,7 @@ def normalise(tangent):
 
 @kernel_only
 def follow_tangent(tangent, growth):
-    """Add a tangent's growth in a forcing cycle to the data `growth` (SEEN); scale the tangent."""
+    """Scale a tangent to the length 1; add the logarithm of its growth in a cycle to `growth`."""
     growth.batch += normalise(tangent)
     growth.periods += 1
     if growth.periods % BLOCK == 0:
@@ -84,7 +84,7 @@ def follow_tangent(tangent, growth):
 
 @kernel
 def exponent(growth):
-    """Return the mean growth of a tangent in a batch, the mean's error, and if growth continues."""
+    """Return a tangent's mean growth in a batch, the standard error, and whether it still grows."""
     count = growth.periods // BLOCK
     recent = 0.0
     for i in range(RECENT):
@@ -95,7 +95,7 @@ def exponent(growth):
 
 @kernel_only
 def nearby_period(ring, k, weight, floor, tolerance):
-    """Return the period of an orbit that seems to be nearer than `tolerance`; 0 without an orbit.
+    """Return the period of an orbit that seems to be nearer to the motion than `tolerance`, or 0.
 
     ring[k % RING] is the state at strobe number k. `floor` is the error of the integration.
     """
@@ -206,7 +206,7 @@ def leave_transient(p, out):
 
 @kernel_only
 def stays_without_contact(p, y, ring, k, out):
-    """Move the primary mass onto a stable orbit without contacts, if one is near; return if so."""
+    """Return whether a stable orbit without contacts is near. If so, put the primary mass on it."""
     for n in range(1, min(k, LONGEST_PERIOD) + 1):
         before = ring[(k - n) % RING]
         if max(abs(y[0] - before[0]), abs(y[1] - before[1])) < NEAR:

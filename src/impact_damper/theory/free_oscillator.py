@@ -31,7 +31,7 @@ class Point(NamedTuple):
 
 
 class Resonance(NamedTuple):
-    """A point of the free resonance branch: amplitude, and phase or None (see `resonance`)."""
+    """Amplitude and phase on the free resonance branch. Beyond its fold the phase is None."""
 
     amplitude: float
     phase: float | None
@@ -54,7 +54,7 @@ def free_solutions(oscillator, frequency) -> FreeSolutions:
 
 
 def main_solutions(oscillator, frequency) -> FreeSolutions:
-    """Return the free solutions. With a softening spring, omit amplitudes above the peak's."""
+    """Return the free solutions; with a softening spring only those not larger than the peak."""
     free = free_solutions(oscillator, frequency)
     if oscillator.hardening >= 0:
         return free
@@ -89,8 +89,8 @@ def resonance(oscillator, frequency) -> Resonance:
 def maximum_response(oscillator) -> Point:
     """Return the maximum of the free response curve over W.
 
-    On the curve (1 - U^2/a^2) W^4 + (h^2 - 2 m - 2 F U/a^2) W^2 + m^2 - F^2/a^2 = 0, where a is
-    the amplitude and m = wl^2 + (3/4) k3 a^2. At the maximum both roots W^2 are equal.
+    A point of the curve obeys (1 - U^2/a^2) W^4 + (h^2 - 2 m - 2 F U/a^2) W^2 + m^2 - F^2/a^2 = 0
+    with the amplitude a and m = wl^2 + (3/4) k3 a^2. At the maximum both roots W^2 are equal.
     """
     damping, stiffness = oscillator.damping**2, oscillator.linear_frequency**2
     force, unbalance, hardening = oscillator.force, oscillator.unbalance, oscillator.hardening

@@ -24,7 +24,7 @@ from impact_damper.theory.single_harmonic import (
     stability,
 )
 
-# Neighbouring solutions on a branch differ by less than JUMP times the largest component of all.
+# Neighbours on a branch differ by less than JUMP times the largest component of any solution.
 JUMP = 0.25
 
 
@@ -108,7 +108,7 @@ def harmonic_balance(system, damper, frequencies):
 
 
 def _table(columns, rows, fill=np.nan):
-    """Return rows of unequal length as one array, with each value in the column that is given."""
+    """Return rows of unequal length as one array. `columns` holds the column of each value."""
     width = max((1 + row.max() for row in columns if len(row)), default=1)
     table = np.full((len(rows), width), fill)
     for target, place, row in zip(table, columns, rows, strict=True):
@@ -268,7 +268,7 @@ def _smallest(oscillator, damper, frequency):
 
 
 def analytical_table(oscillator, dampers, frequency):
-    """Return a dict: the smallest stable |a| by (7) for each damper; the clearance where a = 0."""
+    """Return the smallest stable |a| by (7) for each damper, and the clearance at which it is 0."""
     found = [_smallest(oscillator, each, frequency) for each in dampers]
     signed, status = np.array([size for size, _ in found]), [name for _, name in found]
     best = np.nan

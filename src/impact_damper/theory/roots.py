@@ -12,7 +12,7 @@ EPSILON = np.finfo(float).eps
 # A function counts as 0 if it is at most ROUNDING times the sum of its terms' absolute values.
 ROUNDING = 16 * EPSILON
 LARGEST_DEGREE = 512
-# An interval is halved if the sum of the terms' absolute values varies within it by this factor.
+# An interval is halved if the sum of the terms' absolute values varies in it by a larger factor.
 LARGEST_RANGE = 1e6
 
 

@@ -227,7 +227,7 @@ def growth_rate(state, oscillator, damper, frequency) -> np.ndarray:
 
 
 def fixed_points(solutions) -> np.ndarray:
-    """Convert solutions of the balance to the argument `state` of `jacobian`, shape (..., k)."""
+    """Return Re and Im of a exp(i t1), and with a damper of b exp(i t1), for each solution."""
     *sizes, phase = solutions
     return np.stack([size * np.exp(1j * phase) for size in sizes], axis=-1).view(float)
 

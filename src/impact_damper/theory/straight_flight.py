@@ -59,7 +59,7 @@ class Flight(NamedTuple):
 
     @property
     def reach(self):
-        """Decrease of the clearance, as rm W^2 d0/f, because contacts take time; per (1 + rm) q."""
+        """Decrease of rm W^2 d0/f because contacts take time, divided by the factor (1 + rm) q."""
         return 4 / np.pi * self.contact_phase * self.restitution / (1 + self.restitution) ** 2
 
     @property
