@@ -189,7 +189,7 @@ def _orbits(scene, settings):
 
 
 def _times(scene, model, reference):
-    """Return times at which a model's contacts begin, each near one of the reference (or NaN)."""
+    """Return when a model's contacts begin, in the order of the reference's contacts, or NaN."""
     p, period = scene.p, 2 * np.pi / scene.frequency
     count = len(reference.contact_times) // scene.periods
     if len(model.contact_phases) != count or count == 0:

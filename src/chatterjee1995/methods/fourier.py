@@ -25,7 +25,7 @@ def value(coefficients, harmonics, angle, order=0) -> np.ndarray:
 
 
 def product_samples(harmonics, degree) -> int:
-    """Return how many samples a product of `degree` series needs, so that its c_k are exact."""
+    """Return how many samples give exact Fourier coefficients of a product of `degree` series."""
     return next_fast_len((degree + 1) * int(harmonics[-1]) + 1, real=True)
 
 

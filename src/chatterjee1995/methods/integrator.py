@@ -78,7 +78,7 @@ class Integrator:
         return read_off(p, work, times, ends)
 
     def flight(self, p, state, end, resolution, time):
-        """Run without walls to T = `end`; return |Z2| at the ends of steps and at `time`."""
+        """Run without walls to T = `end`; return |Z2| after each step and at `time`, or None."""
         raise NotImplementedError
 
     def touches(self, p, state, levels, resolution):
@@ -122,7 +122,7 @@ def _turning_points(p, times, ends):
 
 
 def _quintics(p, times, ends, index, steps):
-    """Return the polynomials (as columns) that interpolate a component of the state in `steps`."""
+    """Return the polynomials (as columns) that interpolate a state component in given steps."""
     rates = [
         np.array([rate(p, wall_at(p, ends[k, 2]), times[k], tuple(ends[k])) for k in at])
         for at in (steps, steps + 1)

@@ -64,7 +64,7 @@ class Balance:
         return parts[:, 0] + 1j * parts[:, 1]
 
     def contacts(self, coefficients) -> np.ndarray:
-        """Return a row (wall, begin, end) for each contact in a cycle. Begin and end are W T."""
+        """Return a row (wall, begin, end) for each contact in a cycle. Both ends are phases W T."""
         if self.damper is None:
             return np.empty((0, 3))
         return fourier.intervals(coefficients[1], self.harmonics, self.damper.clearance)

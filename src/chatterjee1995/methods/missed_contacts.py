@@ -68,7 +68,7 @@ def missed_contacts(
 
 
 def counts(integrator, p, passages, depths, resolution):
-    """Return `passage_count`, `spurious_count` and `motion_error` of one integrator."""
+    """Return counts of found and missed contacts, counts of invented ones, and an error of |Z2|."""
     end = 2 * math.pi / p[FREQUENCY]
     touching = np.zeros((len(depths), len(OUTCOMES)), int)
     spurious = np.zeros(len(depths), int)

@@ -88,7 +88,7 @@ def of_coefficients(balance, coefficients, work):
 
 
 def rigid_balance(oscillator, damper, frequency, state):
-    """Return the solution of (13) and (14) nearest to `state`, as a `Model`. It needs e = 1."""
+    """Return the solution of (13) and (14) nearest to `state`, as a `Model`. Only for e = 1."""
     if damper is None or damper.restitution != 1:
         return without("not_applicable")
     roots = single_harmonic.rigid_solutions(oscillator, damper, frequency)
@@ -104,7 +104,7 @@ def rigid_balance(oscillator, damper, frequency, state):
 
 
 def full_balance(oscillator, damper, frequency, state):
-    """Return the solution of (7) nearest to `state`, as a `Model`. A damper needs e = 1."""
+    """Return the solution of (7) nearest to `state`, as a `Model`. Dampers must have e = 1."""
     if damper is not None and damper.restitution != 1:
         return without("not_applicable")
     coefficients, work = nearest_term(oscillator, damper, frequency, state)
@@ -164,7 +164,7 @@ def newton_work(balance):
 
 
 def rigid_impacts(oscillator, damper, frequency, start):
-    """Return the models "rigid" and "rigid_mended" (corrected walls) near the model `start`."""
+    """Return the models "rigid" and "rigid_mended" (corrected walls) of an orbit near `start`."""
     if damper is None:
         return dict.fromkeys(("rigid", "rigid_mended"), without("not_applicable"))
     system = oscillator, damper, frequency

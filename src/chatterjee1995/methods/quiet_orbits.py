@@ -1,8 +1,8 @@
 """The quiet orbit, stable or not, on a grid of parameters, and rules for the optimum clearance.
 
-After half a cycle a symmetric orbit is in its first state with the opposite sign. So it is a fixed
-point of the map "integrate half a cycle, then change the sign". The derivative of this map is
-called the root, since its square is the derivative of the map of a full cycle.
+After half a cycle a symmetric orbit has its initial state with the opposite sign. So this state is
+a fixed point of the map "integrate half a cycle, then change the sign". The derivative of this map
+is called the root, since its square is the derivative of the map of a full cycle.
 """
 
 from typing import NamedTuple
@@ -51,7 +51,7 @@ NEAR = 4
 class QuietOrbits(NamedTuple):
     """Quiet orbits on a grid. Arrays (rows, columns) are NaN in cells without an orbit.
 
-    multiplier: Eigenvalue of largest modulus of the root. Its square is a Floquet multiplier.
+    multiplier: Dominant eigenvalue of the map of half a cycle. Its square is a Floquet multiplier.
     displacement, harmonic: max |Z1|, and the amplitude of the first harmonic of Z1.
     end: Columns, with a fraction, between which a row of the grid has orbits; shape (rows, 2).
     end_event: map_ends (edge of the grid), no_orbit, fold, contacts_change or not_converged.
@@ -128,7 +128,7 @@ def _row_ends(grid, row):
 
 
 def _end(followed):
-    """Return the fraction of the way to the next cell at which orbits end, and the event."""
+    """Return the fraction of the way to the next cell at which orbits end, and what ends them."""
     # This step to the next cell failed in `spread`. It can succeed now that more cells are known.
     if followed.arrived:
         return 0.0, "not_converged"

@@ -1,4 +1,4 @@
-"""Largest steps with which methods with equal steps still compute quiet motions, for each r1."""
+"""Largest steps at which methods with equal steps still compute quiet motions, for each r1."""
 
 import itertools
 import math
@@ -78,7 +78,7 @@ def orbits_over_stiffness(oscillator, damper, frequency, stiffnesses) -> list:
 
 
 def _in_steps(own, targets):
-    """Return `own` and the targets, and values between, so that no ratio exceeds FACTOR."""
+    """Return `own` and the targets, and values between. No ratio of neighbours exceeds FACTOR."""
     cells = [np.array([own])]
     for before, target in itertools.pairwise([own, *targets]):
         count = max(math.ceil(abs(math.log(target / before)) / math.log(FACTOR)), 1)
@@ -87,7 +87,7 @@ def _in_steps(own, targets):
 
 
 def _largest_step(held, tested, steps):
-    """Return the largest step that is accurate like all smaller tested ones, or NaN."""
+    """Return the largest step such that it and all smaller tested steps are accurate, or NaN."""
     held, steps = held[tested], steps[tested]
     failing = np.flatnonzero(~held)
     first = failing[-1] + 1 if len(failing) else 0
@@ -95,7 +95,7 @@ def _largest_step(held, tested, steps):
 
 
 def _slope(stiffnesses, steps):
-    """Fit a line to log(1/step) over log r1, for r1 >= STIFF. Return its slope and the error."""
+    """Fit a line to log(1/step) over log r1, for r1 >= STIFF. Return slope and standard error."""
     use = np.isfinite(steps) & (stiffnesses >= STIFF)
     if use.sum() < 3:
         return np.nan, np.nan
@@ -104,7 +104,7 @@ def _slope(stiffnesses, steps):
 
 
 def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, most_steps, periods):
-    """Return a dataset of stable steps. `scaled_steps` are the steps to test, times wn."""
+    """Return a dataset of stable steps. `scaled_steps` are steps times the contact frequency."""
     stiffnesses = read_increasing(UNITLESS, "stiffnesses", stiffnesses, **STIFFNESS_RANGE)
     scaled = read_increasing(UNITLESS, "scaled_steps", scaled_steps, above=0)
     scaled = scaled[::-1]

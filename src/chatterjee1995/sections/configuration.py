@@ -27,7 +27,7 @@ from impact_damper.command.section import (
 )
 from impact_damper.model import bounds
 
-# Pairs of keys. A job makes as many runs as the product of both values, which has a bound.
+# Pairs of keys. The product of both values is the number of runs of a job, and has a bound.
 COUNTS = (
     ("points.free", "search.starts"),
     ("points.simulated", "search.starts"),
@@ -210,7 +210,7 @@ def configuration(given, trusted=False):
 
 
 def without_left_out(given):
-    """Return the configuration without entries that are null, also in the data of figures."""
+    """Return the configuration without entries that are null. Figures do not draw them."""
     if not isinstance(given, dict):
         return given
     sections = {key: value for key, value in given.items() if isinstance(value, dict)}

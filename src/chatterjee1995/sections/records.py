@@ -25,7 +25,7 @@ class Stage(NamedTuple):
 
 
 def stage(function, message, **options):
-    """Return a decorator that makes a method a stage. By default the stage has its name."""
+    """Return a decorator that makes a method a stage, by default with the name of the method."""
 
     def mark(job):
         job.stage = {"name": job.__name__, "function": function, "message": message} | options

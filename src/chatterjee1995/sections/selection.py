@@ -101,7 +101,7 @@ def chapter_values(config, chapter) -> dict:
 
 
 def chapter_data(config, chapter) -> dict:
-    """Return the entries whose datasets a chapter reads, keyed by stage."""
+    """Return a dict: stage -> names of the entries whose datasets a chapter reads."""
     read = [figure_data(config, name) for name in figures_of(config, chapter)]
     read += [
         {stage: entries(config, stage) for stage in TABLES[name].stages}

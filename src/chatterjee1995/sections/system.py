@@ -81,7 +81,7 @@ class Range(Section):
 
 
 def range_of(kind, *, points=False):
-    """Return a class of ranges whose ends are of the type `kind`, with a key `points` on demand."""
+    """Return a class of ranges with ends of the type `kind`. If `points`, it has a key `points`."""
     types = {"first": kind, "last": kind} | (
         {"points": points_of("points of the grid")} if points else {}
     )
@@ -102,7 +102,7 @@ class Oscillators(keys_of(OSCILLATOR, needed=("damping", "linear_frequency"))):
 
 
 class WithOscillator(Section):
-    """An entry with an oscillator. The product of the values of the keys `counts` has a bound."""
+    """An entry with an oscillator. The product of its values at the keys `counts` has a bound."""
 
     oscillator: text("name of an entry of `oscillators`")
 
@@ -115,7 +115,7 @@ class WithOscillator(Section):
             yield problem((*path, "oscillator"), self.oscillator, reason)
 
     def system(self, config) -> dict:
-        """Return a dict from which a job makes its oscillator."""
+        """Return a dict from which a job makes the oscillator."""
         return {"system": {"Oscillator": config.oscillators[self.oscillator].values()}}
 
 
@@ -123,7 +123,7 @@ class WithDamper(keys_of(DAMPER, needed=NEEDED, without=[COMMON]), WithOscillato
     """An entry with an oscillator and a damper."""
 
     def system(self, config) -> dict:
-        """Return a dict from which a job makes its oscillator and its damper."""
+        """Return a dict from which a job makes the oscillator and the damper."""
         return super().system(config) | {"damper": {"Damper": damper_values(self, config)}}
 
 
@@ -145,13 +145,13 @@ class MaybeWithDamper(keys_of(DAMPER, without=[COMMON]), WithOscillator):
         return bool(given(self, self.whole))
 
     def system(self, config) -> dict:
-        """Return a dict from which a job makes its oscillator, and its damper or None."""
+        """Return a dict from which a job makes the oscillator, and the damper if there is one."""
         damper = {"Damper": damper_values(self, config)} if self.has_damper() else None
         return super().system(config) | {"damper": damper}
 
 
 def damper_values(entry, config) -> dict:
-    """Return the arguments of `Damper`. Rule (19) gives the clearance if it is the word `rule`."""
+    """Return the arguments of `Damper`. Rule (19) replaces the word `rule` by a clearance."""
     values = {COMMON: config.contact_stiffness} | given(entry, DAMPER)
     if values.get("clearance") == "rule":
         oscillator = Oscillator(**config.oscillators[entry.oscillator].values())

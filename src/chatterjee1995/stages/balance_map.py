@@ -217,7 +217,7 @@ def _rows(parameter, values, ratios, fixed):
 
 
 def _run(parameters, starts, settling, workers, progress):
-    """Run a motion in each cell with a start. Return `MOTION` records, "absent" in other cells."""
+    """Run a motion in each cell that has a start. The outcome in other cells is "absent"."""
     asked = np.isfinite(starts[..., 0])
     records = np.zeros(asked.shape, MOTION)
     records["outcome"] = flag("outcome", "absent")

@@ -105,7 +105,7 @@ def _verdict(found, restitution):
 
 
 def unloaded_table(restitutions):
-    """Return the variables of contacts without load, as a dict."""
+    """Return a dict: the variables of the dataset that describe contacts without load."""
     ends = [[contact(e, 0.0, rule) for e in restitutions] for rule in EXIT_RULES]
     return {
         "unloaded_restitution": [[end.departure for end in row] for row in ends],

@@ -72,7 +72,7 @@ def asymptotic_harmonic(damper, frequency) -> float:
 
 
 def decay(damper, p, state) -> tuple:
-    """Predict how errors decrease: return the kind, and powers of 1/N or rates per harmonic."""
+    """Return the predicted decrease: "algebraic" and powers of 1/N, or "exponential" and rates."""
     if damper is None:
         return "exponential", np.array(ANALYTIC) * p[FREQUENCY] * singularity_distance(p, state)
     return "algebraic", np.array(ELASTIC if damper.restitution == 1 else INELASTIC)
@@ -222,7 +222,7 @@ def errors(solutions, multipliers, exact):
 
 
 def _farthest(values, references):
-    """Pair values with references so that distances are small; return the largest distance."""
+    """Pair values with references at the least sum of distances; return the largest distance."""
     if np.isnan(values).any():
         return np.nan
     away = np.abs(values[:, None] - references)

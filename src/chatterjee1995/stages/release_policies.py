@@ -55,7 +55,7 @@ RULE = np.dtype([("kind", "i8"), ("cycles", "f8"), ("phase", "i8")])
 
 
 class Outcome(NamedTuple):
-    """Results of trials. `cycles` are those until the goal, `damper` those with the damper on."""
+    """Results of trials: the `cycles` until the goal, and the cycles with the `damper` on."""
 
     reached: np.ndarray
     cycles: np.ndarray
@@ -168,7 +168,7 @@ class Trials(NamedTuple):
         return held
 
     def labels(self, states):
-        """Find the motions to which states at a strobe lead; return their labels and the cycles."""
+        """Return the motion to which each state at a strobe leads, and the cycles it takes."""
         settings = self.settling.tolerance, self.settling.limit, self.workers
         return ensemble.label_states(
             self.releases.p, states, math.pi / 2, self.releases.attractors, *settings

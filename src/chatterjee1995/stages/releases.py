@@ -116,7 +116,7 @@ def migration(
 
 
 def _example(totals):
-    """Return the index of a typical run that reaches the goal, or 0 if no run does."""
+    """Return the index of a run that needs the median number of switchings to the goal, or 0."""
     reached = totals["trial_outcome"] == flag("trial_outcome", "reached")
     if not reached.any():
         return 0
@@ -139,7 +139,7 @@ def _summary(switchings, totals):
 
 
 def _release(case, state, wait, settling, stop=NEVER):
-    """Switch the damper off `wait` cycles after the strobe with this state; return a RELEASE."""
+    """Switch the damper off `wait` cycles after a strobe with this state; return a RELEASE."""
     tolerance, limit = settling.tolerance, settling.limit
     path, record = legs.leg(case.on, case.off, state.copy(), wait, 0.0, 0.0, tolerance, limit, stop)
     return wait, *path[0, 1:3], destination(case.known, record)
@@ -219,7 +219,7 @@ def release_data(case, motions, entries, settling):
 
 
 def _settled_motions(oscillator, damper, frequency, seed, settling, workers, known):
-    """Return the settled motions in `known` and those of many starts, the smallest first."""
+    """Return the settled motions, those in `known` and those from many starts, smallest first."""
     on = pack(oscillator, damper, frequency)
     # The solutions of (7) for elastic contact are good starts for an inelastic damper too.
     balance = impacting_solutions(oscillator, replace(damper, restitution=1.0), frequency)

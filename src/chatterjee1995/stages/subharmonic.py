@@ -130,7 +130,11 @@ def is_subharmonic(data):
 
 
 def branch_ends(data, branch, grid, rows):
-    """Return the frequencies of both ends of a branch, from the sweep `data` or from the grid."""
+    """Return the frequencies of both ends of a branch.
+
+    The sweep `data` has located some ends. In place of others, return the lowest or highest
+    frequency of the grid at which the branch was found.
+    """
     ends = grid[[min(rows), max(rows)]]
     for side, (row, step, turn) in enumerate(((min(rows), -1, "down"), (max(rows), 1, "up"))):
         if not 0 <= row + step < len(grid):

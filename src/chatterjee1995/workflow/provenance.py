@@ -11,7 +11,7 @@ from pathlib import Path
 
 
 def provenance(configuration, root) -> dict:
-    """Return what results come from, as a dict. Outside a repository `commit` is None."""
+    """Return a dict: versions, commit, configuration and computer that results come from."""
     root = Path(root)
     lock = (root / "requirements.lock").read_bytes()
     text = json.dumps(configuration, sort_keys=True)

@@ -42,7 +42,7 @@ def estimated_step(p, side, by_position, t, h, y, tolerance):
 
 @kernel
 def located(p, side, t, h, y, tolerance):
-    """Shorten a step h so that it ends at a wall; return its length, last state, steps tried."""
+    """Shorten a step h to end at a wall; return its length, last state and number of trials."""
     low, high = 0.5 * h, h
     state, _ = estimated_step(p, side, False, t, high, y, tolerance)
     beyond = ahead(p, side, state[2])

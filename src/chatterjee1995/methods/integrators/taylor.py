@@ -56,7 +56,7 @@ def take_steps(steps, p, y, side, t, end, tolerance, flight_order, contact_order
 
 
 def steps_of(orders):
-    """Return the argument `steps` of `take_steps`: addresses of functions, size of a workspace."""
+    """Return addresses of compiled functions, and the size of a workspace, for `take_steps`."""
     module = instance(1, *orders)
     called = module.flight_step, module.contact_step, module.constant_series
     return np.array([*(compiled(each).address for each in called), module.SIZE])
@@ -93,7 +93,7 @@ def taylor(p, start, t, periods, tolerance, orders=ORDERS):
 
 
 def turning_points(rows, series):
-    """Find the turning points of Z1; return the index of the step and the time within it."""
+    """Return the turning points of Z1: index of the step, and time since the step began."""
     slopes = polyder(series)
     edges = np.linspace(0, rows[:, 1], PARTS + 1)
     speeds = np.array([polyval(t, slopes, tensor=False) for t in edges])
