@@ -241,7 +241,7 @@ def release_set(oscillator, frequency, settling, *, cells=64, workers=1) -> Rele
 
 
 def _refined(inside, half, cells):
-    """Return a mask of the fine cells of a grid in a set. `inside(states)` tells which are."""
+    """Return a mask of a grid's fine cells in a set. `inside(states)` is a mask of states in it."""
     mask = inside(_centres(half, cells)).reshape(cells, cells)
     for _ in range(int(math.log2(REFINED))):
         # Only the parts of cells at the edge of the set are tested again.

@@ -55,7 +55,10 @@ def run(p, y, ahead, strobe, tolerance, limit, stop=NEVER):
 
 @kernel
 def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, path, out):
-    """Run a motion from strobe `first` to strobe `last`, or until it settles or escapes."""
+    """Run a motion from strobe `first` to strobe `last`, or until it settles or escapes.
+
+    Return the wall in contact, and the distance from an orbit at which Newton's method is tried.
+    """
     work = workspace()
     none = np.empty((0, 4))
     for k in range(first, last):

@@ -174,7 +174,7 @@ def measure(parameters, settling, out, stop, follow=follow_each):
     """Measure motions from their states at the strobe; complete their records `out`.
 
     The kernel `follow` runs a motion without a period for `settling.watched` cycles. The record
-    receives the largest |Z1| and the mean number of contacts in a cycle; other values are NaN.
+    receives max |Z1| and the mean number of contacts in a cycle. Other measurements are NaN.
     """
     measure_orbits(parameters, settling.tolerance, out, stop)
     watched = settling.watched

@@ -106,7 +106,7 @@ def missed_share(starts) -> float:
 
 
 def free_sizes(oscillator, frequencies) -> dict:
-    """Return for each frequency the largest free |Z1| and |Z1'| by harmonic balance, as a dict."""
+    """Return max |Z1| and max |Z1'| of free motions by harmonic balance, for each frequency."""
     sizes = {w: float(balance_amplitudes(oscillator, w)[-1]) for w in dict.fromkeys(frequencies)}
     return {w: (size, size * w) for w, size in sizes.items()}
 

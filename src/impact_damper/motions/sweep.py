@@ -123,7 +123,7 @@ def _follow(source, target, index, settling, links, ends):
 
 
 def _end_event(record, multiplier, beyond):
-    """Return the event at which a branch ends. Beyond its end, its last orbit leads to `beyond`."""
+    """Return the name of the event that ends a branch. `beyond` is the motion beyond this end."""
     if not abs(multiplier) >= CRITICAL:
         return "not_smooth"
     if abs(multiplier.imag) > COMPLEX:
@@ -194,7 +194,7 @@ class Catalogue:
         self.records, self.numbers, self.origins, self.starts = [], [], [], []
 
     def find(self, record):
-        """Return the index of a motion that equals a record or its mirror image, or None."""
+        """Return the index of the motion that a record describes, directly or mirrored, or None."""
         for i, known in enumerate(self.records):
             if known["outcome"] != record["outcome"] or known["period"] != record["period"]:
                 continue

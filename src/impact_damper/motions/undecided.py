@@ -237,7 +237,6 @@ def _rounded(points):
 
 
 def _goes_around_once(angle, number):
-    """Return whether the angle makes one smooth turn from point to point along the curve."""
     order = np.argsort(np.arange(len(angle)) * number % 1)
     turns = np.diff(angle[order], append=angle[order[0]])
     turns -= np.round(turns)

@@ -54,7 +54,7 @@ def free_solutions(oscillator, frequency) -> FreeSolutions:
 
 
 def main_solutions(oscillator, frequency) -> FreeSolutions:
-    """Return the free solutions; with a softening spring only those not larger than the peak."""
+    """Return the free solutions; with a softening spring only amplitudes up to that of the peak."""
     free = free_solutions(oscillator, frequency)
     if oscillator.hardening >= 0:
         return free

@@ -108,7 +108,6 @@ def harmonic_balance(system, damper, frequencies):
 
 
 def _table(columns, rows, fill=np.nan):
-    """Return rows of unequal length as one array. `columns` holds the column of each value."""
     width = max((1 + row.max() for row in columns if len(row)), default=1)
     table = np.full((len(rows), width), fill)
     for target, place, row in zip(table, columns, rows, strict=True):

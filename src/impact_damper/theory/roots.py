@@ -12,7 +12,7 @@ EPSILON = np.finfo(float).eps
 # A function counts as 0 if it is at most ROUNDING times the sum of its terms' absolute values.
 ROUNDING = 16 * EPSILON
 LARGEST_DEGREE = 512
-# An interval is halved if the sum of the terms' absolute values varies in it by a larger factor.
+# An interval is halved if the largest `size` in it exceeds the smallest by more than this factor.
 LARGEST_RANGE = 1e6
 
 
@@ -55,7 +55,6 @@ def smooth_roots(function, size, lower, upper) -> np.ndarray:
 
 
 def _between(function, size, extrema, lower, upper):
-    """Return the roots of `function` in [lower, upper]. `extrema` holds all its extrema there."""
     points = np.unique(np.clip(np.concatenate([[lower, upper], np.real(extrema)]), lower, upper))
     values = function(points)
     if not np.isfinite(values).all():
