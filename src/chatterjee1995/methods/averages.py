@@ -45,7 +45,7 @@ def exponents(p, start, tolerance, periods, batch, restitution=None):
 
 
 def estimates(batches):
-    """Return means (row 0) and standard errors (row 1) of STATISTICS; NaN if not in `batches`."""
+    """Return mean (row 0) and standard error (row 1) of each average; NaN if not in `batches`."""
     table = np.full((2, len(STATISTICS)), np.nan)
     for k, name in enumerate(STATISTICS):
         if name in batches:

@@ -30,7 +30,7 @@ def product_samples(harmonics, degree) -> int:
 
 
 def largest(coefficients, harmonics) -> float:
-    """Return the maximum of |z(s)|, found by Newton's method from the largest samples."""
+    """Return the largest absolute value of a series, by Newton's method from its samples."""
     count = next_fast_len(16 * int(harmonics[-1]) + 64)
     size = np.abs(samples(coefficients, harmonics, count))
     top = np.flatnonzero((size >= np.roll(size, 1)) & (size >= np.roll(size, -1)))
@@ -42,7 +42,7 @@ def largest(coefficients, harmonics) -> float:
 
 
 def intervals(coefficients, harmonics, level) -> np.ndarray:
-    """Return the intervals of s in which |z| exceeds a level, as rows (wall, begin, end).
+    """Return a row (wall, begin, end) for each interval in which a series z has |z| > level.
 
     `wall` is 1 if z > level, and -1 if z < -level. The search divides a period into cells. It
     halves a cell until a bound on z'' proves that z crosses the level at most once in the cell. It

@@ -156,7 +156,7 @@ RULES = ("balance", "gap_harmonic", "straight_flight", "elastic", "flight")
 
 
 def elastic_ratios(flight) -> tuple[float, float]:
-    """Return the optimum rm W^2 d0/f of a `Flight` for each of CRITERIA; NaN if e < 1."""
+    """Return rm W^2 d0/f at which max |Z1|, or the first harmonic of Z1, is smallest (e = 1)."""
     if flight.restitution != 1:
         return np.nan, np.nan
     contact, damping, whole = flight.contact, flight.damping, 1 + flight.mass_ratio

@@ -31,7 +31,7 @@ def job(config, stage, name) -> dict:
 
 
 def read_by(config, stage, name) -> dict:
-    """Return a dict: argument of a stage's function -> stages that compute its value for `name`."""
+    """Return a dict: argument of a stage's function -> stages that compute it for an entry."""
     return {
         key: [each for each in stages if name in entries(config, each)]
         for key, stages in STAGES[stage].reads.items()

@@ -186,7 +186,7 @@ def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
 
 
 def cold_status(warm, first) -> int:
-    """Solve again from the coefficients `first`. Return as a flag whether `warm` is found again."""
+    """Solve again from the coefficients `first`. Return a flag: whether `warm` is found again."""
     found = solve(warm.balance, first)
     if found.status != "converged":
         return flag("cold_status", found.status)

@@ -108,7 +108,7 @@ class Trials(NamedTuple):
     workers: int = 1
 
     def rules(self, trials, seed):
-        """Return, for each policy, the RULE with the fewest cycles to the goal on average."""
+        """Return for each policy the rule that reaches the goal in the fewest cycles on average."""
 
         def costs(rules):
             cycles = [outcome.cycles for outcome in self.run(rules, trials, seed)]
@@ -154,7 +154,7 @@ class Trials(NamedTuple):
         return list(map(Outcome, *(column.reshape(-1, trials) for column in columns)))
 
     def hold(self, starts, draws, limits, rules):
-        """Run `hold_many` on several threads and return its output `held`."""
+        """Run trials with the damper on, on several threads. Return a HELD record for each."""
         held, stop = np.zeros(len(starts), HELD), np.zeros(1, bool)
         set_ = self.releases
 

@@ -175,7 +175,7 @@ def watch_runs(case, seeds, lifetime, settling, workers, progress):
 
 
 def _life(p, path, record, tolerance):
-    """Return the number of cycles after which a run stays within CAPTURE of its final orbit."""
+    """Return after how many cycles a run stays close (within CAPTURE) to its final orbit."""
     begin, period = strobe_time(p), 2 * np.pi / p[FREQUENCY]
     strobes = begin + np.arange(record["period"]) * period
     orbit = states_at(p, record["state"], begin, strobes, tolerance)
