@@ -187,15 +187,29 @@ def scatter(pool, chosen, count, kind, arrived):
 
 
 @kernel_only
-def raise_largest(pool, chosen, count, order):
-    """After a step, update `pool.largest`, the largest |Z1| of each chosen trajectory."""
-    series = np.empty(max(FLIGHT_ORDER, CONTACT_ORDER) + 1)
+def raise_largest(pool, chosen, count, kind):
+    """After a step, update `pool.largest`, the largest |Z1| of each chosen trajectory.
+
+    Turning points are only sought if Z1 could exceed `largest`. `rise` is a bound on how far Z1 can
+    be beyond its values at both ends of the step. In contact it is the sum of the moduli of the
+    series' terms, in flight it is the bound `sag` of `find_contact`.
+    """
+    a, order = pool.a, CONTACT_ORDER if kind & 1 else FLIGHT_ORDER
+    rise, series = np.zeros(LANES), np.empty(max(FLIGHT_ORDER, CONTACT_ORDER) + 1)
+    for k in range(order if kind & 1 else 0, 0, -1):
+        for lane in range(LANES):
+            term = abs(a[_MANY.X + k * LANES + lane])
+            rise[lane] = (rise[lane] + term) * a[LENGTH * LANES + lane]
     for lane in range(count):
-        m = chosen[lane]
-        for k in range(order + 1):
-            series[k] = pool.a[_MANY.X + k * LANES + lane]
-        length = pool.a[LENGTH * LANES + lane]
-        pool.largest[m] = extremum(series, order, length, pool.largest[m])
+        m, length = chosen[lane], a[LENGTH * LANES + lane]
+        if kind & 1 == FLIGHT:
+            walls = pool.numbers[m, packed.CLEARANCE] < np.inf
+            rise[lane] = _MANY.SAG * a[_MANY.CHANGE + lane] * length if walls else np.inf
+        ends = max(abs(pool.numbers[m, STATE]), abs(a[_MANY.Y0 + lane]))
+        if ends + rise[lane] > pool.largest[m]:
+            for k in range(order + 1):
+                series[k] = a[_MANY.X + k * LANES + lane]
+            pool.largest[m] = extremum(series, order, length, pool.largest[m])
 
 
 @kernel
@@ -218,7 +232,7 @@ def advance_some(pool, chosen, arrived):
             if kind >= FLIGHT_WITH_TANGENT:
                 contact_tangents(a, d)
         if pool.largest[chosen[0]] >= 0.0:
-            raise_largest(pool, chosen, count, CONTACT_ORDER if kind & 1 else FLIGHT_ORDER)
+            raise_largest(pool, chosen, count, kind)
         ended = scatter(pool, chosen, count, kind, arrived)
     return ended
 
