@@ -1,9 +1,9 @@
 """Attractors, labels of states, and release sets.
 
 An attractor is a stable orbit. The label of a state names the attractor to which the state leads. A
-release set holds all free states that lead to the goal of migration. A neighbourhood is an ellipse
-around a state of a free orbit at the strobe (W T = pi/2). A run ends when the motion enters the
-ellipse, because the motion then tends to the orbit (docs/explanation/neighbourhoods.md).
+release set holds all states of the free oscillator that lead to the goal of migration. A
+neighbourhood is an ellipse around a state of a free orbit at the strobe (W T = pi/2). A motion that
+enters the ellipse tends to the orbit, so its run ends (docs/explanation/neighbourhoods.md).
 """
 
 import math
@@ -21,14 +21,14 @@ from impact_damper.motions import ensemble, records, traces
 from impact_damper.motions.start_states import free_motions
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, STROBE, strobe_time
 
-# STEPS: time steps in a forcing cycle. FACTOR: bound on the size of a neighbourhood after a period,
-# divided by its size before. HALVINGS: bisections in the search for the largest neighbourhood.
+# The largest neighbourhood of an orbit is found by HALVINGS bisections, with STEPS time steps in a
+# forcing cycle. In a period of the orbit the neighbourhood's size is multiplied by at most FACTOR.
 STEPS, FACTOR, HALVINGS = 256, 0.98, 30
 # ALIKE: two free orbits are equal if their states at the strobe differ by less than this number.
 # SAME: two motions with the damper are equal if their max |Z1| differ by less than this fraction.
 ALIKE, SAME = 1e-6, 1e-5
-# Grid of states in the search for orbits. SEARCHED: number of grid points along each axis. REACH:
-# width of the grid in Z1, divided by the largest |Z1| of free motions. The same holds for Z1'.
+# Grid of states in the search for orbits. SEARCHED: number of grid points along each axis. The
+# widths of the grid in Z1 and Z1' are REACH times the largest |Z1| and |Z1'| of free motions.
 REACH, SEARCHED = 3.0, 24
 # Labels of unsettled motions, by outcome. The label of a settled motion is its attractor's index.
 LABELS = {
@@ -59,21 +59,21 @@ class Attractors(NamedTuple):
 
 
 def find_attractors(p, states, settling) -> Attractors:
-    """Return the attractors to which free motions lead from `states`, (Z1, Z1') at the strobe."""
+    """Return the attractors of the free motions that start in `states`, (Z1, Z1') at the strobe."""
     starts = np.tile(np.asarray(states, float).reshape(-1, 2), 2)
     motions = ensemble.settle(np.tile(p, (len(starts), 1)), starts, settling, from_strobe=True)
     return with_neighbourhoods(p, _distinct(p, motions[is_settled(motions)]))
 
 
 def free_attractors(p, window, settling) -> Attractors:
-    """Return the attractors to which a grid of states with the half widths `window` leads."""
+    """Return the attractors of the free motions that start on a grid with half widths `window`."""
     grid = [np.linspace(-half, half, SEARCHED) for half in window]
     states = np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2)
     return find_attractors(p, states, settling)
 
 
 def with_neighbourhoods(p, records) -> Attractors:
-    """Return the orbits in `records` together with the neighbourhoods of all their states."""
+    """Return the orbits in `records`, with a neighbourhood of each of their strobe states."""
     orbits = [orbit_states(p, record, STROBE)[:, :2] for record in records]
     shapes = [neighbourhood(p, state, len(states)) for states in orbits for state in states]
     owner = np.repeat(np.arange(len(records)), records["period"])
@@ -106,7 +106,7 @@ def _distinct(p, motions):
 
 
 def linear_flow(p, state, periods):
-    """Return Z1 (n,) along an orbit, and the derivatives dz(t)/dz(0) (n, 2, 2) of z = (Z1, Z1')."""
+    """Return Z1 (n,) and dz(t)/dz(0) (n, 2, 2) at n times t along an orbit, with z = (Z1, Z1')."""
     y, tangents, work = np.tile(state, 2), np.eye(4)[:2].copy(), workspace()
     times = strobe_time(p) + np.arange(periods * STEPS + 1) * 2 * np.pi / (STEPS * p[FREQUENCY])
     displacement, matrices = [y[0]], [np.eye(2)]
@@ -118,9 +118,9 @@ def linear_flow(p, state, periods):
 
 
 def neighbourhood(p, state, periods):
-    """Return the matrix S of a neighbourhood |S (z - state)| < 1 of an orbit with this state.
+    """Return the matrix S of a neighbourhood |S (z - state)| < 1 around a `state` of an orbit.
 
-    S is infinite if no neighbourhood can be proved.
+    All motions from the neighbourhood tend to the orbit. S is infinite if none can be proved.
     """
     displacement, matrices = linear_flow(p, state, periods)
     values, vectors = np.linalg.eig(matrices[-1])
@@ -241,10 +241,9 @@ def release_set(oscillator, frequency, settling, *, cells=64, workers=1) -> Rele
 
 
 def _refined(inside, half, cells):
-    """Return a mask of a grid's fine cells in a set. `inside(states)` is a mask of states in it."""
     mask = inside(_centres(half, cells)).reshape(cells, cells)
     for _ in range(int(math.log2(REFINED))):
-        # Only the parts of cells at the edge of the set are tested again.
+        # Split each cell in four. Test the parts only if the cell lies at the edge of the set.
         edge = maximum_filter(mask, 3) != minimum_filter(mask, 3)
         fine, edge = (np.kron(each, np.ones((2, 2), bool)) for each in (mask, edge))
         cells *= 2
@@ -259,7 +258,7 @@ def _centres(half, cells):
 
 
 def signed_distance(inside):
-    """Return each cell's distance from the edge of a set, in cell widths, negative outside it."""
+    """Return each cell's distance from the edge of a set, in cell widths (outside: negative)."""
     if inside.all() or not inside.any():
         return np.where(inside, np.inf, -np.inf)
     # The edge is half a cell width nearer than the centre of the nearest cell beyond the edge.

@@ -24,7 +24,7 @@ from impact_damper.motions.steady import run_chunks, settle_with
 from impact_damper.motions.strobe_map import strobe_time
 from impact_damper.motions.watch import RING, SEEN, begin_watch, watch
 
-# `label_states` runs this number of motions in one call of a kernel. Ctrl-C waits until it ends.
+# `label_states` runs this number of motions in one call of a kernel. Ctrl-C waits for the call.
 LABELLED = 4096
 # Labels of states. GONE: the motion escapes. UNKNOWN: the motion leads to no known orbit.
 GONE, UNKNOWN = -2, -1
@@ -45,7 +45,7 @@ def settle(
 
     Motion i has the packed parameters parameters[i] and starts in states[i]. If `from_strobe`, all
     motions start at the first strobe, W T = pi/2. Otherwise they start at the time T = `start`, at
-    most a cycle before it. If another thread sets `stop[0]`, the records are incomplete.
+    most a cycle before the first strobe. Another thread can stop all runs by setting `stop[0]`.
     """
     parameters = np.ascontiguousarray(parameters, float)
     strobes = 0.5 * np.pi / parameters[:, FREQUENCY]
@@ -103,7 +103,7 @@ def follow_many(parameters, states, cycles, tolerance, contacts, largest):
     advance(parameters, states, sides, begins, ends, tolerance, contacts, largest)
 
 
-# Kernels that run many motions at once: until they settle, or for a number of cycles.
+# Two kernels that run many motions at once: until outcomes are known, and for a number of cycles.
 SIDE_BY_SIDE = settle_many, follow_many
 
 
@@ -128,7 +128,7 @@ def take_state(pool, m, i, p, states, begin, first, tolerance, y, taken, strobes
 
 
 def label_states(p, states, phase, attractors, tolerance, limit, workers=1, progress=None):
-    """Return two arrays: labels of states of the free oscillator, and cycles until each was known.
+    """Return labels of states of the free oscillator, and the cycles until each label is known.
 
     `states` (n, 2) are Z1 and Z1' at the forcing phase `phase`. The label of a state is the index
     in `attractors.records` of the orbit to which the state leads. The label is GONE if the motion
@@ -152,7 +152,7 @@ def label_states(p, states, phase, attractors, tolerance, limit, workers=1, prog
 
 @kernel
 def label_many(p, begin, tolerance, limit, neighbourhoods, states, labels, periods, stop):
-    """Write the two results of `label_states` into `labels` and `periods`."""
+    """Run free motions until their labels are known; fill `labels` and `periods` (cycles run)."""
     owner, centre, shape = neighbourhoods
     size = min(len(states), RESIDENT)
     pool = make_pool(size)

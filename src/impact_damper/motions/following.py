@@ -14,16 +14,16 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE, polish, repeats_s
 
 # Factor by which the step of the parameter grows after a successful step.
 GROWTH = 1.5
-# Newton's method may move a predicted state by at most REACH, and the first state by at most NUDGE.
+# Newton's method may move a predicted state by at most REACH, the state at the start by NUDGE.
 REACH, NUDGE = 0.03, 1e-3
 # Smallest step of the parameter. The end of a branch is found to this accuracy.
 RESOLUTION = 1e-8
 
 
 class Followed(NamedTuple):
-    """The last two values of the parameter and their orbits; the status of the last correction.
+    """The last two values of the parameter that `follow` has reached, and the orbits there.
 
-    `arrived` says whether the target is reached.
+    `status` is the status of the last correction. `arrived`: the last value is the target.
     """
 
     values: tuple[float, float]
@@ -33,7 +33,7 @@ class Followed(NamedTuple):
 
     @property
     def orbit(self):
-        """The last orbit."""
+        """The orbit at the last value of the parameter."""
         return self.orbits[1]
 
 
@@ -61,9 +61,9 @@ def follow(
     `orbit` is the orbit at `start`. `correct(value, predicted state)` returns an orbit (None on
     failure) and a status. The first step goes to `target`. A step fails if `correct` fails, or if
     Z1, Z1' or Z2 changes by `reach` or more. A failure halves the step, a success multiplies it by
-    `growth`. Following stops if a step is below `shortest`. The predicted state is the last one,
-    or, if `extrapolating`, lies on the line through the states of the last two orbits. `behind`, if
-    given, is the orbit before `orbit`, at the value 2 start - target.
+    `growth`. Following stops if a step is below `shortest`. The predicted state is that of the last
+    orbit, or, if `extrapolating`, lies on the line through the states of the last two orbits.
+    `behind`, if given, is the orbit at the value 2 start - target, and serves to extrapolate.
     """
     value, step, status = start, target - start, ""
     before, last_step = (start, orbit), target - start
@@ -118,6 +118,6 @@ def follow_stable(p, state, periods, parameter, target) -> tuple:
 
 
 def record_at(p, state, periods, parameter, value, tolerance=POLISH_TOLERANCE):
-    """Follow a stable orbit to `value`; return the record there, or None if the branch ends."""
+    """Follow a stable orbit to `value`; return its record, or None if the branch ends before."""
     p, orbit = follow_stable(p, state, periods, parameter, value)
     return measured(p, orbit.state, periods, tolerance) if p[parameter] == value else None

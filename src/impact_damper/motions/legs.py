@@ -57,7 +57,8 @@ def run(p, y, ahead, strobe, tolerance, limit, stop=NEVER):
 def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, path, out):
     """Run a motion from strobe `first` to strobe `last`, or until it settles or escapes.
 
-    Return the wall in contact, and the distance from an orbit at which Newton's method is tried.
+    Return the wall in contact at the end, and the last value of `near`: the distance from an orbit
+    at which Newton's method is tried. A failure of the method reduces `near`.
     """
     work = workspace()
     none = np.empty((0, 4))
@@ -82,13 +83,13 @@ def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, p
 
 
 def leg(before, after, y, wait, place, strobe, tolerance, limit, stop=NEVER):
-    """Wait from the strobe on, switch the damper, and run on; return the results of `run`."""
+    """Run from a strobe for `wait` cycles, switch the damper, run on; return what `run` returns."""
     wait_and_switch(before, after, y, wait, place, tolerance)
     return run(after, y, 1.0 - wait % 1.0, strobe + math.floor(wait) + 1.0, tolerance, limit, stop)
 
 
 def wait_and_switch(before, after, y, wait, place, tolerance):
-    """Run from a strobe for `wait` forcing cycles, then switch the damper; return the time then.
+    """Run from a strobe for `wait` forcing cycles, switch the damper; return the switching time.
 
     `before` and `after` are the packed parameters before and after the switching. Switching the
     damper on sets Z2 to `place` times the clearance, and Z2' to 0.
@@ -104,10 +105,10 @@ def wait_and_switch(before, after, y, wait, place, tolerance):
 
 
 def hold_by_state(off, on, y, wait, place, strobe, tolerance, longest, releases):
-    """Wait, switch the damper on, run, and switch it off; return the path with the damper on.
+    """Run from a strobe for `wait` cycles, switch the damper on, run, and switch it off.
 
     The damper is switched off when the state is in the release set `releases`, or after `longest`
-    cycles. The path has rows as in `run`. Its last state, after switching off, replaces y.
+    cycles. The last state replaces y. Return the path with the damper on, in rows as in `run`.
     """
     begin = wait_and_switch(off, on, y, wait, place, tolerance)
     path = np.full((longest + 2, 5), np.nan)
@@ -128,7 +129,8 @@ def hold_by_state(off, on, y, wait, place, strobe, tolerance, longest, releases)
 def depth_of(depth, half, phase, x, v):
     """Return the distance of the state Z1 = x, Z1' = v from the edge of a release set.
 
-    The distance is negative outside the set, and -infinity outside the grid `depth`.
+    `depth` and `half` are those of the `ReleaseSet`; `phase` is an index. The distance is negative
+    outside the set, and -infinity outside its grid.
     """
     if not (abs(x) <= half[0] and abs(v) <= half[1]):
         return -math.inf
@@ -144,10 +146,10 @@ def hold(on, y, side, begin, limit, rule, draw, depth, half, tolerance, path, wo
 
     `rule` is (kind, n, k). A run of the kind HOLD ends after n forcing cycles. A run of the kind
     PHASE ends after n cycles, when W T next is 2 pi k/PHASES. A run of the kind STATE ends when the
-    state is in the release set, or after n cycles. A run of the kind SETTLED ends after the strobe
-    states repeat, at the fraction `draw` of the next period. Each strobe gives a row of `path`
-    (m, 5): forcing cycles since `begin`, and the state. Return the last time, whether the rule
-    ended the run within `limit` cycles, and the number of contacts begun.
+    state is in the release set of `depth` and `half`, or after n cycles. A run of the kind SETTLED
+    ends after the strobe states repeat, at the fraction `draw` of the next period. Each strobe
+    gives a row of `path` (m, 5): forcing cycles since `begin`, and the state. Return the last time,
+    whether the rule ended the run within `limit` cycles, and the number of contacts begun.
     """
     kind, length, wanted = rule
     none, ring = np.empty((0, 4)), np.empty((RING, 4))

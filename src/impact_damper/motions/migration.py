@@ -21,7 +21,7 @@ from impact_damper.theory.free_oscillator import main_solutions
 MARGIN, SAMPLES = 10, 40
 # Two free motions are equal if their max |Z1| differ by less than this number.
 ALIKE = 1e-6
-# A log entry: the damper is switched on, then off. Times are forcing cycles from the first strobe.
+# An entry of a log is one switching, on and off. Times are forcing cycles from the first strobe.
 # released_period, released_displacement: period and max |Z1| of the motion before switching off.
 # destination, end_time: kind of the motion after switching off, and time at which its run ends.
 SWITCHING = np.dtype(
@@ -85,7 +85,7 @@ def migrate(
         For each `time` T: the displacement of the primary mass. For each `switching`: the times T
         at which the damper is switched on, the damper is switched off, and the free motion has
         settled; the kinds of motion before and after switching off. For the run: whether it reaches
-        the small motion, the number of switchings, forcing cycles with the damper on and in all.
+        the small motion, the number of switchings, the cycles with the damper on, and all cycles.
 
     Raises
     ------
@@ -166,14 +166,14 @@ def release_case(oscillator, damper, frequency, settling) -> ReleaseCase:
 
 
 def kinds(period, displacement, known):
-    """Return the kind of each motion, a flag of DAMPED_MOTION, from its period and max |Z1|."""
+    """Return the kinds of motions (DAMPED_MOTION). known[1]: max |Z1| of the resonance motion."""
     one = np.where(displacement < known[1] / 2, DAMPED_MOTION["quiet"], DAMPED_MOTION["violent"])
     several = np.where(period > 1, DAMPED_MOTION["subharmonic"], one)
     return np.where(period == 0, DAMPED_MOTION["unsettled"], several)
 
 
 def destination(known, record):
-    """Return the kind of a free motion, a flag of FREE_MOTION, from its record."""
+    """Return a free motion's kind, a flag of FREE_MOTION. `known` is the field of `ReleaseCase`."""
     if not is_settled(record):
         return FREE_MOTION["unresolved"]
     if record["period"] == 3:

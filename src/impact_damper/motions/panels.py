@@ -82,7 +82,7 @@ def contact_forces(p, state, span, course, tolerance):
 def _divided(p, state, span, course, tolerance, flights):
     """Return the panels of a motion: those in contacts, and if `flights` those in flights too."""
     (begin, end), (states, log) = span, course
-    # Edges: `begin`, both ends of each contact, `end`. So flights and contacts alternate.
+    # The edges are `begin`, both ends of each contact, and `end`. Flights and contacts alternate.
     ends = np.where(np.isfinite(log[:, 2]), log[:, 2], end)
     edges = np.concatenate([[begin], np.column_stack([log[:, 1], ends]).ravel(), [end]])
     walls = np.zeros(len(edges) - 1)

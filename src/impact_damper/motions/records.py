@@ -27,7 +27,7 @@ SYMMETRIC = 1e-6
 # Number of samples in a forcing cycle from which harmonics are computed.
 SAMPLES = 64
 COSINE, SINE = (f(STROBE + 2 * np.pi * np.arange(SAMPLES) / SAMPLES) for f in (np.cos, np.sin))
-# `envelope` runs this number of windows in one call of a kernel. Ctrl-C waits until it ends.
+# `envelope` runs this number of time windows in one call of a kernel. Ctrl-C waits for the call.
 AT_ONCE = 1024
 # The argument `stop` of a run that no other thread can stop.
 NEVER = np.zeros(1, bool)
@@ -101,7 +101,7 @@ def survey(p, states, phases, times, tolerance, log, sums):
 
 @kernel_only
 def add_samples(c, order, moments, sample, count, sums):
-    """Add samples of a polynomial, times cos(W T) to sums[0], and times sin(W T) to sums[1]."""
+    """Sample the polynomial c. Add values times cos(W T), sin(W T) to sums[0], sums[1]."""
     t0, t1, t2, t3 = moments
     v0 = v1 = v2 = v3 = c[order]
     for k in range(order - 1, -1, -1):
@@ -160,7 +160,7 @@ def measure_orbits(parameters, tolerance, out, stop):
 
 @kernel
 def follow_each(parameters, states, cycles, tolerance, contacts, largest):
-    """Run motions as `ensemble.follow_many` does, but one after the other."""
+    """Run motions one after the other for `cycles` forcing cycles (see `ensemble.follow_many`)."""
     work = workspace()
     for i in range(len(states)):
         p, y = parameters[i], states[i]
@@ -173,8 +173,8 @@ def follow_each(parameters, states, cycles, tolerance, contacts, largest):
 def measure(parameters, settling, out, stop, follow=follow_each):
     """Measure motions from their states at the strobe; complete their records `out`.
 
-    The kernel `follow` runs a motion without a period for `settling.watched` cycles. The record
-    receives max |Z1| and the mean number of contacts in a cycle. Other measurements are NaN.
+    The kernel `follow` runs motions without a period for `settling.watched` cycles. Their records
+    receive max |Z1| and the mean number of contacts in a cycle; other measurements are NaN.
     """
     measure_orbits(parameters, settling.tolerance, out, stop)
     watched = settling.watched
@@ -224,9 +224,9 @@ def envelope(parameters, lengths, y, tolerance):
     """Run a motion through n windows of time, with a row of packed parameters for each window.
 
     Return two arrays (n,): the largest |Z1| in each window, and the number of contacts that begin.
-    After an escape both are NaN, but in the window of the escape |Z1| is infinite. The last state
-    replaces y. Each window begins at the strobe. The forcing is 0 there, so W can change between
-    windows. If there is forcing, each entry of `lengths` must be one forcing cycle.
+    In the window of an escape |Z1| is infinite; all other entries from there on are NaN. The last
+    state replaces y. Each window begins at the strobe. The forcing is 0 there, so W can change
+    between windows. If there is forcing, each entry of `lengths` must be one forcing cycle.
     """
     largest, contacts = np.full((2, len(lengths)), np.nan)
     side = side_of(next(iter(parameters)), y)
@@ -260,7 +260,7 @@ def run_window(p, y, side, length, largest, tolerance, work):
 
 @kernel
 def run_windows(parameters, lengths, y, side, tolerance, largest, contacts):
-    """Run windows of `envelope` up to the last or to an escape; return the wall in contact then."""
+    """Run a motion through time windows, or to an escape. Return the wall in contact at the end."""
     work = workspace()
     for k in range(len(lengths)):
         side, largest[k], begun = run_window(

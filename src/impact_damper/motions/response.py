@@ -23,8 +23,8 @@ from impact_damper.motions.steady import run_chunks
 from impact_damper.motions.sweep import sweep
 from impact_damper.motions.watch import NEAR
 
-# APART: largest random change of Z1 and of Z1' in the first state of a run that measures a life.
-# CAPTURE: distance from an orbit at which a transient counts as ended.
+# Runs that measure the lives (durations) of chaotic transients. APART: largest random change of Z1
+# and of Z1' in the first state. CAPTURE: distance from an orbit at which a transient has ended.
 # CHECKED: number of forcing cycles for which a run that has not ended is continued, as a check.
 APART, CAPTURE, CHECKED = 1e-4, 0.1, 300
 
@@ -156,7 +156,8 @@ def _lives(parameters, states, periods, settling, **running):
 
     def work(part):
         begin = 0.5 * np.pi / parameters[part, FREQUENCY]
-        # With this long patience no run is stopped as chaotic, and no tangent is computed.
+        # The patience, 2 periods + 2, exceeds twice the length of a run. So no run is stopped as
+        # chaotic, and no tangent is computed.
         settings = settling.tolerance, 2 * periods + 2, periods
         settle_many(parameters[part], states[part], begin, *settings, records[part], stop)
 

@@ -32,19 +32,19 @@ PHASES, SAMPLES, MOST_STATES = 6, 256, 5
 # Random starts. SPREAD: size of the largest start divided by the size of the largest free motion.
 # SMALLEST: size of the smallest start divided by the size of the largest start.
 SPREAD, SMALLEST = 3.0, 0.01
-# Placed starts. PLACES: Z2 divided by the clearance. VELOCITIES: Z2' divided by `_crossing_speed`.
-# For starts on free motions, Z2' is divided by their largest |Z1'| if that is larger.
+# Placed starts. PLACES: Z2 divided by the clearance. VELOCITIES: Z2' divided by `_crossing_speed`,
+# or for starts on free motions by the largest |Z1'| of these, if it exceeds `_crossing_speed`.
 PLACES, VELOCITIES = (-2 / 3, 0.0, 2 / 3), (-1.0, 0.0, 1.0)
-# `sweep.stable_orbits` takes LOOSE_STATES random states of the loose mass. LOOSE_SPEED: largest
-# speed in them, divided by the larger of `_crossing_speed` and the largest |Z1'| of free motions.
+# `sweep.stable_orbits` takes LOOSE_STATES random states of the loose mass. Their largest speed is
+# LOOSE_SPEED times the larger of `_crossing_speed` and the largest |Z1'| of free motions.
 LOOSE_STATES, LOOSE_SPEED = 240, 2.0
-# With a softening spring, |Z1|, |Z1'| of random starts are at most WITHIN times those of `barrier`.
+# Softening spring: |Z1|, |Z1'| of random starts are at most WITHIN times the results of `barrier`.
 WITHIN = 0.7
 NO_STARTS, NO_LOOSE = np.empty((0, 4)), np.empty((0, 2))
 # Ramps. STEP: relative change of the parameter in a step. PERIODS: forcing cycles in a step.
-# RAISED: first force divided by last force. BELOW: an upward ramp of the frequency to W begins at
-# BELOW times the lowest of W/2 and the frequencies of folds. A downward ramp begins at the highest
-# of 2 W and the frequencies of folds, divided by BELOW.
+# RAISED: in a ramp of the force, the first force divided by the last force. BELOW: a frequency ramp
+# to W begins at BELOW times the lowest of W/2 and the fold frequencies, or it begins at the highest
+# of 2 W and the fold frequencies, divided by BELOW.
 STEP, PERIODS, BELOW, RAISED = 0.0125, 20, 0.9, 5.0
 
 
@@ -76,7 +76,7 @@ class Search(NamedTuple):
 
 
 def search_starts(oscillator, systems, count, radius, seed, settling, *, whole_gap=False) -> Search:
-    """Return a `Search` with `count` random starts for each system: (damper or None, W)."""
+    """Return a `Search` with `count` random starts for each of `systems`: (damper or None, W)."""
     if radius is None:
         numbered = enumerate(systems)
         rows = [wide_starts(oscillator, *each, count, [seed, i], settling) for i, each in numbered]
@@ -139,7 +139,7 @@ def gap_states(count, radius, damper, seed):
 
 
 def wide_starts(oscillator, damper, frequency, count, seed, settling) -> tuple:
-    """Return what a `Search` without a radius holds for one system, in the order of its fields."""
+    """Return the values of all fields of a `Search` without a radius, for one system."""
     free = free_motions(oscillator, frequency, settling)
     states, most = random_starts(oscillator, damper, frequency, count, seed, settling)
     if damper is None:
@@ -182,7 +182,6 @@ def _crossing_speed(damper, frequency):
 
 
 def _placed(oscillator, damper, frequency, free, crossing, tolerance):
-    """Return starts on free motions, at rest, after ramps, and on solutions of harmonic balance."""
     rows = ramped(oscillator, damper, frequency, tolerance) + [
         (x, v, place * damper.clearance, velocity * speed)
         for primary, speed in [(free.states, max(free.speed, crossing)), ([(0.0, 0.0)], crossing)]
@@ -214,7 +213,7 @@ def ramped(oscillator, damper, frequency, tolerance) -> list:
 
 
 def _ramp(target, indices, factor, tolerance):
-    """Run a slow ramp of some parameters up to their values in `target`; return the last state."""
+    """Run from rest while parameters change slowly to those in `target`; return the last state."""
     p, state, none = target.copy(), np.zeros(4), np.empty((0, 4))
     for exponent in np.linspace(1, 0, 2 + math.ceil(abs(math.log(factor)) / STEP)):
         p[indices] = target[indices] * factor**exponent

@@ -150,7 +150,7 @@ def settle_with(
 
 @kernel
 def settle_each(parameters, states, start, tolerance, patience, limit, out, stop):
-    """Run motions as `ensemble.settle_many` does, but one after the other; fill records `out`."""
+    """Run motions one after the other until their outcomes are known; write records into `out`."""
     work, ring = workspace(), np.empty((RING, 4))
     seen, tangent = np.empty(1, SEEN), np.empty((1, 4))
     for i in range(len(out)):
@@ -168,5 +168,5 @@ def settle_each(parameters, states, start, tolerance, patience, limit, out, stop
         assign(out[i].state, y)
 
 
-# Kernels that run motions one after the other: until they settle, or for a number of cycles.
+# Kernels that run motions one after the other: until outcomes are known; for a number of cycles.
 ONE_BY_ONE = settle_each, follow_each

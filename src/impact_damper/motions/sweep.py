@@ -23,18 +23,18 @@ from impact_damper.motions.steady import run_chunks
 from impact_damper.motions.strobe_map import STROBE, distance, flow, polish, strobe_time
 
 # Two records show the same motion if max |Z1| differs by less than SAME max |Z1|, or less than
-# ROUNDING. Two unsettled records also show the same motion if the ratio of their sizes is below
-# SIMILAR. A motion is symmetric if its asymmetry is below SAME.
+# ROUNDING. Two unsettled records also show the same motion if their `size_ratio` is below SIMILAR.
+# A motion is symmetric if its asymmetry is below SAME.
 SAME, ROUNDING, SIMILAR = 1e-6, 1e-11, 1.5
 # Outcomes with infinite or zero max |Z1|. All motions with one such outcome count as one motion.
 ALIKE = tuple(flag("outcome", name) for name in ("diverged", "escaped", "at_rest"))
-# Search for orbits by Newton's method. LONGEST: longest period in cycles. REACH: largest change of
-# a start, divided by the largest of the clearance and of |Z1| and |Z1'| of known motions.
+# Search for orbits by Newton's method. LONGEST: longest period in cycles. REACH: largest distance
+# of an orbit from its first guess, divided by the largest of d0 and |Z1|, |Z1'| of known motions.
 # SAME_ORBIT: two orbits are equal if their states differ by less than this number.
 LONGEST, REACH, SAME_ORBIT = 5, 1.0, 1e-6
-# Events at the end of a branch. At a bifurcation the modulus of the multiplier is above CRITICAL. A
-# multiplier is complex if its imaginary part is above COMPLEX. At a loss of symmetry max |Z1|
-# (dimensionless) changes by less than CLOSE.
+# Events at the end of a branch. At a bifurcation the modulus of the orbit's multiplier is above
+# CRITICAL. A multiplier is complex if its imaginary part is above COMPLEX. At a loss of symmetry
+# max |Z1| of the orbit and of the motion beyond the end differ by less than CLOSE.
 CRITICAL, COMPLEX, CLOSE = 0.98, 1e-3, 0.05
 
 
@@ -90,7 +90,6 @@ def reached(data):
 
 
 def _follow(source, target, index, settling, links, ends):
-    """Follow all motions of the catalogue `source` to the next value; add results to `target`."""
     followed = [
         follow_stable(source.p, record["state"], record["period"], index, target.p[index])
         if is_settled(record)
@@ -150,7 +149,6 @@ def _branches(catalogues, links):
 
 
 def _tables(catalogues, branches, dimension, starts):
-    """Return a table of the motions at each value, sorted by descending max |Z1|, as a dict."""
     width = max(len(catalogue.records) for catalogue in catalogues)
     records = np.zeros((len(catalogues), width), MOTION)
     records["outcome"] = flag("outcome", "absent")
@@ -250,8 +248,8 @@ def match_unsettled(first, second) -> list:
 def size_ratio(one, other):
     """Return the larger max |Z1| of two motions divided by the smaller.
 
-    Without a period max |Z1| may be small by chance. If the ratio of the fields `reach` is smaller,
-    return that ratio.
+    A motion without a period may have a small max |Z1| by chance. For two such motions return the
+    ratio of the fields `reach`, if it is smaller.
     """
     if one["maximum_displacement"] == other["maximum_displacement"]:
         return 1.0

@@ -6,8 +6,8 @@ from impact_damper.kernel.compiling import kernel, kernel_only
 from impact_damper.kernel.equation import has_escaped
 from impact_damper.kernel.single import LENGTH, assign, side_of, state_in_step, step, workspace
 
-# STEPS_AT_ONCE: largest number of steps in one call of the kernel. Ctrl-C waits until it ends.
-# ROWS: number of rows of a new log. More rows are added when the log is full.
+# STEPS_AT_ONCE: largest number of steps in one call of the kernel. Ctrl-C waits for the call.
+# ROWS: number of rows of a new log of contacts. More rows are added when the log is full.
 STEPS_AT_ONCE, ROWS = 50_000, 64
 
 
@@ -40,7 +40,7 @@ def states_at(p, state, begin, times, tolerance):
 
 @kernel
 def trace_steps(p, y, t, side, sample, contacts, times, tolerance, states, log):
-    """Do at most STEPS_AT_ONCE steps; write samples into `states`, and contacts into `log`."""
+    """Integrate at most STEPS_AT_ONCE steps; write samples to `states` and contacts to `log`."""
     work = workspace()
     start = y.copy()
     for _ in range(STEPS_AT_ONCE):

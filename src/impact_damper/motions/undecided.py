@@ -20,8 +20,8 @@ from impact_damper.motions import records
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, one_period, polish
 from impact_damper.motions.watch import CONFIDENCE, LONGEST_PERIOD, NEAR, normalise
 
-# A motion is run in blocks. FIRST: largest number of forcing cycles in the first block.
-# BATCHES: number of batches in a block. Their scatter gives the standard error of a block's mean.
+# A motion is run in blocks. FIRST: largest number of forcing cycles in the first block. BATCHES:
+# number of batches in a block. Their scatter gives the standard error of the Lyapunov exponent.
 FIRST, BATCHES = 1500, 30
 # A motion is chaotic only if its tangent grows in a block by more than the factor exp(GROWN). While
 # a motion leaves an unstable orbit, a rounding error grows by less, about 1e16 = exp(37).
@@ -39,11 +39,11 @@ TORUS += ["first_frequency", "second_frequency", "frequency_error"]
 # AGREEMENT: largest error with which a rotation number is accepted.
 # FEWEST: smallest number of points from which a rotation number is computed.
 AGREEMENT, FEWEST = 1e-8, 100
-# The advance of the angle from point to point is known modulo one revolution. Advances are averaged
-# only if some range of this width, in revolutions, contains none of them.
+# From point to point the angle around a closed curve's mean point advances. Each advance is known
+# modulo one revolution. The mean is taken only if a range of INTERVAL revolutions has no advance.
 INTERVAL = 0.02
-# TURN: largest change of the angle between neighbouring points of a closed curve, in revolutions.
-# WANDERING: largest sum of the moduli of these changes along the whole curve.
+# TURN: largest change, in revolutions, of the angle around the mean point of a closed curve between
+# two neighbouring points. WANDERING: largest sum of the moduli of all these changes on the curve.
 TURN, WANDERING = 0.05, 3.0
 
 
@@ -72,7 +72,8 @@ def run_block(p, y, tangent, states, growth, stop):
 def name_undecided(parameters, motions, limit, further, stop):
     """Continue the forced motions that have the outcome UNRESOLVED; complete their records.
 
-    A motion runs in blocks, each twice as long as the last, for at most `further` cycles in all.
+    A motion runs in blocks, for at most `further` cycles in all. The first block has `limit` cycles
+    or FIRST, whichever is less. Each further block is twice as long as the block before.
     """
     curves = []
     for i in np.flatnonzero(motions["outcome"] == records.UNRESOLVED):
@@ -157,7 +158,7 @@ def _on_orbit(p, record, states, contacts, limit):
     for n in np.flatnonzero(near) + 1:
         y, n = last.copy(), int(n)
         found, residual, multiplier = polish(p, y, n, REACH, POLISH_TOLERANCE)
-        # The periods n ascend, so n is the smallest period of the first orbit found.
+        # The candidates n ascend, so the first orbit found has the smallest period n.
         if not found or abs(multiplier) >= 1:
             continue
         duration = n * 2 * math.pi / p[FREQUENCY]

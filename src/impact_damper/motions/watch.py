@@ -3,7 +3,7 @@
 Near an orbit of period n the distances between states n cycles apart decrease geometrically. The
 sum of all distances still to come estimates how far the motion is from the orbit. If the sum is
 small, Newton's method looks for a stable orbit close by. A slow passage near a fold can look like
-an orbit, but its sum is large. If the sum is above NEAR, the function `is_linear` must agree.
+an orbit, but its sum is large. A sum above NEAR is accepted only if `is_linear` returns True.
 """
 
 import math
@@ -25,7 +25,7 @@ from impact_damper.motions.strobe_map import (
 )
 
 # LONGEST_PERIOD: longest period of an orbit that is looked for, in forcing cycles.
-# RING: number of the last strobes at which the state is stored.
+# RING: number of strobes, up to the present one, whose states are stored.
 LONGEST_PERIOD = 12
 RING = 2 * LONGEST_PERIOD + 1
 # A motion is chaotic if its Lyapunov exponent exceeds CONFIDENCE standard errors. An exponent below
@@ -37,8 +37,8 @@ BLOCK, RECENT = 10, 5
 # Newton's method is tried when a motion is nearer to an orbit than the distance NEAR. After each
 # failure the distance is divided by 10, down to NEAREST.
 NEAR, NEAREST = 1e-4, 1e-9
-# EARLY: larger distances at which Newton's method is tried if RETURNS successive distances between
-# states a period apart decrease. NONLINEAR, APPROACH: see `is_linear`.
+# Newton's method is also tried at the larger distances EARLY from an orbit, if RETURNS successive
+# distances between states a period apart decrease. NONLINEAR, APPROACH: see `is_linear`.
 EARLY, RETURNS, NONLINEAR, APPROACH = (1e-2, 1e-3), 4, 0.1, 1000
 # Without forcing, a motion is at rest if its energy is at most REST times the energy at the start.
 REST = 1e-9
@@ -206,7 +206,7 @@ def leave_transient(p, out):
 
 @kernel_only
 def stays_without_contact(p, y, ring, k, out):
-    """Return whether a stable orbit without contacts is near. If so, put the primary mass on it."""
+    """Seek a stable orbit without contact near y; put the primary mass on it; return success."""
     for n in range(1, min(k, LONGEST_PERIOD) + 1):
         before = ring[(k - n) % RING]
         if max(abs(y[0] - before[0]), abs(y[1] - before[1])) < NEAR:
@@ -254,9 +254,10 @@ def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit,
 
     - settled, diverged or escaped;
     - at_rest, if there is no forcing and hardly any energy is left (REST);
-    - non_colliding, if it has settled without contacts, or if the primary mass is on an orbit, the
-      loose mass has touched no wall for `patience` cycles, and it drifts by less than 1 % of the
-      clearance in `limit` cycles. If it drifts faster, the outcome after `limit` is drifting;
+    - non_colliding, if it has settled without contacts. The outcome is also non_colliding if the
+      primary mass is close to an orbit, and the loose mass has touched no wall for `patience`
+      cycles, and the loose mass drifts by less than 1 % of the clearance in `limit` cycles. If only
+      the drift is too fast, the outcome after `limit` cycles is drifting;
     - chaotic, after `patience` cycles, if the largest Lyapunov exponent exceeds CONFIDENCE
       standard errors and the tangent still grows. A slow spiral can look like weak chaos, so an
       exponent below WEAK is judged just before `limit`.

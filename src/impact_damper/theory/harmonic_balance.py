@@ -187,7 +187,6 @@ SIZES = ("band_width", "peak_frequency", "peak_amplitude", "quiet_amplitude", "r
 
 
 def _band(oscillator, damper):
-    """Search for the suppression band; return its dataset variables as a dict."""
     data = dict.fromkeys(SIZES, np.nan) | {
         "band_status": flag("band_status", "no_peak"),
         "edge_frequency": [np.nan] * 2,
@@ -228,7 +227,7 @@ def _look(oscillator, damper, frequency):
 
 
 def _edge(inside, peak, limit):
-    """Search for an edge of the band between W = peak and W = limit * peak. NaN: there is none."""
+    """Return the edge of the band between W = peak and W = limit * peak; NaN without an edge."""
     step = np.sign(limit - 1) * SEARCH_STEP * peak
     inner = peak
     for outer in np.arange(peak + step, limit * peak, step):
@@ -267,7 +266,7 @@ def _smallest(oscillator, damper, frequency):
 
 
 def analytical_table(oscillator, dampers, frequency):
-    """Return the smallest stable |a| by (7) for each damper, and the clearance at which it is 0."""
+    """Return the smallest stable |a| by (7) for each damper, and the clearance at which a is 0."""
     found = [_smallest(oscillator, each, frequency) for each in dampers]
     signed, status = np.array([size for size, _ in found]), [name for _, name in found]
     best = np.nan

@@ -12,7 +12,7 @@ EPSILON = np.finfo(float).eps
 # A function counts as 0 if it is at most ROUNDING times the sum of its terms' absolute values.
 ROUNDING = 16 * EPSILON
 LARGEST_DEGREE = 512
-# An interval is halved if the largest `size` in it exceeds the smallest by more than this factor.
+# An interval is halved if the bound on the rounding error varies in it by more than this factor.
 LARGEST_RANGE = 1e6
 
 
@@ -34,8 +34,8 @@ def polynomial_roots(coefficients) -> np.ndarray:
 def smooth_roots(function, size, lower, upper) -> np.ndarray:
     """Return the real roots of an analytic function in [lower, upper], each listed once.
 
-    The rounding error at x is at most EPSILON * size(x). A Chebyshev polynomial gives the extrema
-    (Trefethen, Approximation Theory and Approximation Practice, 2013, chapter 18).
+    The rounding error of function(x) is at most EPSILON * size(x). A Chebyshev polynomial gives the
+    extrema (Trefethen, Approximation Theory and Approximation Practice, 2013, chapter 18).
     """
     sizes = size(np.linspace(lower, upper, 17))
     if np.max(sizes) > LARGEST_RANGE * np.min(sizes):

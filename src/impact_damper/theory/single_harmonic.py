@@ -2,8 +2,8 @@
 
 Z1 = a cos(W T + t1) and Z2 = b cos(W T + t1) with b > 0; a < 0 means antiphase. Walls are elastic.
 Stability follows from the slow flow (17), the equations for slowly varying amplitudes and phases.
-It is written here in A = a exp(i t1) and C = b exp(i t2), where t2 is the phase of Z2. The paper's
-form in a, b, t1 and t2 is singular at a = 0. Elsewhere both forms have the same eigenvalues.
+Here the unknowns are A = a exp(i t1) and C = b exp(i t2), where t2 is the phase of Z2. The paper's
+form of (17) in a, b, t1, t2 is singular at a = 0. Elsewhere both forms have the same eigenvalues.
 """
 
 from typing import NamedTuple
@@ -90,7 +90,7 @@ def resting_solutions(oscillator, damper, frequency) -> Solutions:
 
 
 class _Balance:
-    """Terms of (7) as functions of the contact angle p, with factors cos(p) that remove poles."""
+    """Terms of (7) as functions of the contact angle p. Powers of cos(p) remove their poles."""
 
     def __init__(self, oscillator, damper, frequency):
         self.clearance = damper.clearance
@@ -238,7 +238,7 @@ def stability(growth) -> np.ndarray:
 
 
 def _push_slopes(loose, damper):
-    """Return the derivatives of the contact force r1 B(b) C/b by C and by conj(C). b is |C|."""
+    """Return d/dC and d/dconj(C) of the contact force r1 B(b) C/b, where b is |C|."""
     size = np.abs(loose)
     contact, slope = contact_amplitude(size, damper.clearance)
     size = np.maximum(size, damper.clearance)

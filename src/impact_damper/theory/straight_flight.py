@@ -59,7 +59,7 @@ class Flight(NamedTuple):
 
     @property
     def reach(self):
-        """Decrease of rm W^2 d0/f because contacts take time, divided by the factor (1 + rm) q."""
+        """Because contacts take time, rm W^2 d0/f is smaller by (1 + rm) q times this number."""
         return 4 / np.pi * self.contact_phase * self.restitution / (1 + self.restitution) ** 2
 
     @property
@@ -79,7 +79,7 @@ class Flight(NamedTuple):
         return np.arcsin(np.minimum(self.loss * impulse, 1.0)) - self.setback
 
     def _difference(self, function):
-        """Return (f(r) - f(u))/(r - u) at both roots r, u of z^2 + damping z + stiffness^2 = 0."""
+        """Return (f(r) - f(u))/(r - u). r, u are the roots of z^2 + damping z + stiffness^2 = 0."""
         half = np.sqrt(complex(self.damping**2 / 4 - self.stiffness**2)) or APART
         roots = -self.damping / 2 + half, -self.damping / 2 - half
         return ((function(roots[0]) - function(roots[1])) / (2 * half)).real
