@@ -110,9 +110,9 @@ def _elastic_orbits(datasets):
 
 
 def design_multipliers(datasets):
-    """Return the largest modulus of the multipliers of the exact quiet orbit, for each design.
+    """Return for each design of figure 3 the largest |multiplier| of its exact quiet orbit.
 
-    The designs are those of figure 3. The orbit is taken at the peak frequency of the design.
+    The orbit is taken at the peak frequency of the design.
     """
     followed = reading.select(datasets, "design_orbit", ALL_DESIGNS)
     return np.array([reading.largest_multiplier(reading.design_point(each)) for each in followed])

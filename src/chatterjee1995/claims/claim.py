@@ -23,7 +23,7 @@ def part(share, digits=2) -> str:
 
 
 def rounding(distance) -> str:
-    """Return "a right rounding" if an error, in half units of the last digit, is at most 1."""
+    """Return in words whether an error, in half units of the last digit, is at most 1."""
     return "a right rounding" if distance <= 1 else "not a rounding"
 
 
@@ -54,7 +54,7 @@ class Bound(NamedTuple):
         return cls(name, *map(float, least or [-math.inf]), *map(float, most or [math.inf]))
 
     def holds(self, values) -> bool | None:
-        """Return whether the number in the dict `values` is in the range, or None if it is NaN."""
+        """Return whether `values[name]` is in the range, or None if it is NaN."""
         value = values[self.name]
         return None if math.isnan(value) else self.least <= value <= self.most
 
@@ -71,7 +71,7 @@ class Claim:
     """A statement of the paper, and the bounds that decide whether it is reproduced.
 
     `number` is "1" to "19" for claims, or "S1" to "S6" for misprints and omissions.
-    `evidence(datasets)` returns a dict of numbers, or raises `Missing`. A number is NaN if the
+    `evidence(datasets)` returns a dict of numbers, or raises `Missing`. Such a number is NaN if the
     data do not determine it. `reading` says how vague words of the paper are read. `finding` is a
     template for a text with the numbers, and fits every verdict.
 
@@ -100,7 +100,7 @@ class Claim:
         return {Bound.read(bound).name: words for bound, words in texts.items() if words}
 
     def verdict(self, values) -> str:
-        """Return the verdict. A NaN leads to "not decidable" if no required bound fails."""
+        """Return the verdict. A NaN makes it "not decidable", unless a required bound fails."""
         required, wished = (
             [Bound.read(text).holds(values) for text in bounds]
             for bounds in (self.required, self.full_agreement)

@@ -17,7 +17,7 @@ def any_phase(datasets):
 
 
 def _release_shares(case, kind, free_motion="non_resonance"):
-    """Return the shares of releases that lead to `free_motion`, from damped motions of one kind."""
+    """For each damped motion of a kind return the share of releases that lead to `free_motion`."""
     rows = case.damped_kind.values == flag("released_from", kind)
     shares = case.release_share.sel(free_motion=free_motion, bound="share").values[rows]
     return shares[np.isfinite(shares)]
@@ -60,9 +60,10 @@ def _scanned(datasets, case):
 
 
 def _nearest_range(decides, frequency):
-    """Return the ends of the range of W, nearest to `frequency`, in which `decides` is true.
+    """Return the lowest and the highest W of the range that is nearest to `frequency`.
 
-    `decides` is a dict: W -> whether the phase of release decides which motion follows.
+    `decides` is a dict: W -> whether the phase of release decides which motion follows. A range
+    consists of neighbouring W at which the phase decides.
     """
     scanned = list(decides)
     ends = [
@@ -122,7 +123,7 @@ def early_release(datasets):
 
 
 def by_policy(datasets, case, policy):
-    """Return two numbers on a release policy: share of runs that succeed, median time in cycles."""
+    """Return the share of runs in which a release policy succeeds, and the median of the cycles."""
     damper, frequency = damper_of(case), reading.parameter(case, "frequency")
     names = "mass_ratio", "clearance", "restitution"
     for data in datasets.get("release_policies", {}).values():

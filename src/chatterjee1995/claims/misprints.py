@@ -46,7 +46,7 @@ def penetration(datasets):
 
 
 def captions(datasets):
-    """Return numbers on misprint S2: clearances printed with figure 3, and those of rule (19)."""
+    """Return numbers on misprint S2: clearances printed with figure 3, and by rule (19)."""
     numbers = {}
     for panel, *names in zip("ba", CAPTIONS[1:], RULES[1:], strict=True):
         designs = reading.select(datasets, "harmonic_balance", names)
@@ -57,7 +57,7 @@ def captions(datasets):
 
 
 def state_size(datasets):
-    """Return a number on omission S3: how many components an initial state has."""
+    """Return the number of components of an initial state, which omission S3 is about."""
     motion = reading.get(datasets, "motion", "figure_04")
     return {"components": sum(name in motion for name in STATE)}
 

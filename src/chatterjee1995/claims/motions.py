@@ -114,7 +114,7 @@ def first_collisions(datasets):
 
 
 def contact_model(datasets):
-    """Return numbers that test claim 15: the contact model is good for high e, fails for low e."""
+    """Return numbers that test claim 15: the contact model is good for high e only."""
     used = [
         reading.parameter(data, "restitution")
         for stage in ("response", "optimum")
@@ -134,11 +134,11 @@ def contact_model(datasets):
 
 
 def _duration(restitution):
-    """Return the time of a contact without other forces, over the time of an elastic contact."""
+    """Return the duration of a contact without load, divided by the duration for e = 1."""
     return 1 / math.sqrt(1 - damping_ratio(restitution) ** 2)
 
 
 def _pull_free_error(restitution):
-    """Return by which fraction the restitution exceeds its nominal value if walls cannot pull."""
+    """Return (realised restitution)/(given restitution) - 1 for walls that cannot pull."""
     damping = damping_ratio(restitution)
     return math.exp(2 * math.asin(damping) * damping * _duration(restitution)) - 1

@@ -14,7 +14,7 @@ AWAY = 0.1  # the rise of max |Z1| is read at (1 - AWAY) and (1 + AWAY) times th
 
 
 def excess(datasets):
-    """Return numbers that test claim 9: the optimum d0 is slightly above that of equation (7)."""
+    """Return numbers that test claim 9: the optimum d0 is slightly above d0 by equation (7)."""
     groups = _sweeps(datasets, "damping", restitution=1)
     members = [sweep for group in groups.values() for sweep in group]
     over = [float(sweep.optimum_clearance / sweep.analytical_optimum) - 1 for sweep in members]
@@ -36,9 +36,9 @@ def excess(datasets):
 
 
 def _sweeps(datasets, *keys, **fixed):
-    """Return clearance sweeps in groups: a dict, values of the parameters `keys` -> sweeps.
+    """Return groups of clearance sweeps as a dict: values of the parameters `keys` -> sweeps.
 
-    Sweeps with other values of the parameters `fixed` are left out, and so are single sweeps.
+    Only sweeps whose parameters have the values `fixed` count. Groups of one sweep are left out.
     """
     groups = {}
     for sweep in datasets.get("optimum", {}).values():
@@ -51,7 +51,7 @@ def _sweeps(datasets, *keys, **fixed):
 
 
 def _displaced(sweep):
-    """Return max |Z1| if d0 is 10 % below the optimum or 10 % above, whichever is larger."""
+    """Return the larger of two values of max |Z1|: at d0 10 % below and 10 % above the optimum."""
     ends = float(sweep.optimum_clearance) * np.array([1 - AWAY, 1 + AWAY])
     size = np.interp(ends, sweep.clearance, sweep.quiet_displacement, left=np.nan, right=np.nan)
     return float(np.max(size))

@@ -11,12 +11,13 @@ AS_LARGE = 0.95  # a subharmonic counts as unchanged if max |Z1| / (free max |Z1
 
 
 def _remaining(datasets, name):
-    """Return a dict about the stable orbits of a curve whose period is a multiple of 3.
+    """Return a dict about a curve and its stable orbits of period 3, 6, 9, ... cycles.
 
-    `band` is the width of the suppression band in W, `in_band` the width of the part of the band
-    with such orbits. `between` is the width of the part of the range of the free subharmonic with
-    such orbits. `ratio` is their largest max |Z1| over max |Z1| of the free subharmonic at the
-    same W, and `ratio_in_band` is this ratio in the band.
+    `band`: width in W of the suppression band by harmonic balance.
+    `in_band`: width of the part of the suppression band in which such orbits exist.
+    `between`: width of the part of the range of the free subharmonic in which such orbits exist.
+    `ratio`: largest (max |Z1| of such an orbit)/(max |Z1| of the free subharmonic at the same W).
+    `ratio_in_band`: largest such ratio in the suppression band.
     """
     branches, free = orbits.of_curve(datasets, name)
     part = orbits.stable_subharmonics(branches)
@@ -62,9 +63,10 @@ def by_damping(datasets):
 def _reduction(datasets, name):
     """Return a dict: how much the damper of a curve reduces the one-third subharmonic.
 
-    `fall` is the reduction of max |Z1|, averaged over W and starts. A start that leads to no
-    subharmonic counts as max |Z1| = 0. `relative` is `fall` over the mean max |Z1| without damper.
-    `unchanged` is the share of W at which the damper hardly reduces a stable subharmonic.
+    `fall`: reduction of max |Z1| by the damper, averaged over W and starts. A start that leads to
+    no subharmonic counts as max |Z1| = 0.
+    `relative`: `fall` divided by the mean of max |Z1| without the damper.
+    `unchanged`: share of the range of W in which the damper hardly reduces a stable subharmonic.
     """
     branches, free = orbits.of_curve(datasets, name)
     ends = orbits.subharmonic_range(free)

@@ -38,7 +38,7 @@ DOUBTFUL = "open: wrong number of contacts, or\nchaos within its standard error"
 
 @style.context()
 def draw_accuracy(*, accuracy):
-    """Draw the errors of methods over their floating-point operations, one panel for each scene."""
+    """Draw errors of methods against their floating-point operations, one panel for each scene."""
     drawn, panels = style.grid(len(accuracy), 2.4, 1.5)
     for axes, data in zip(panels, accuracy, strict=True):
         _panel(axes, data)
@@ -87,7 +87,6 @@ def _panel(axes, data):
 
 
 def _errors(axes, data, quantity):
-    """Return relative errors of averages over chaotic motions, and their standard errors."""
     of = data.sel(statistic=quantity)
     truth = float(of["reference_average"])
     doubt = float(of["reference_average_error"]) / truth
@@ -96,7 +95,6 @@ def _errors(axes, data, quantity):
 
 
 def _method(axes, role, work, error, bars, good, bad):
-    """Draw the runs of a method, with open markers for `bad` runs and for uncertain errors."""
     label, color, marker, line = role
     looks, ended = {"color": color, "markersize": 4}, good | bad
     if bars is None:

@@ -1,4 +1,4 @@
-"""Figures of the errors of harmonic balance, over the highest harmonic and as maps."""
+"""Figures of the errors of harmonic balance: curves over the highest harmonic, and maps."""
 
 import numpy as np
 from matplotlib.colors import ListedColormap
@@ -60,7 +60,7 @@ VIOLENT = {
 
 @style.context()
 def draw_harmonic_convergence(*, harmonic_convergence):
-    """Draw errors of harmonic balance over the highest harmonic, and how Newton's method ends."""
+    """Draw errors of harmonic balance against the highest harmonic, and ends of Newton's method."""
     drawn = style.figure("double", 6.4)
     panels = drawn.subplots(2, 2, sharex=True)
     style.letter_panels(panels.flat)
@@ -75,7 +75,6 @@ def draw_harmonic_convergence(*, harmonic_convergence):
 
 
 def _draw_errors(axes, harmonics, measure):
-    """Draw one kind of error over the highest harmonic, its predicted decrease, and failed runs."""
     status = "hill_status" if measure == "multiplier" else "series_status"
     for index, data in enumerate(harmonics):
         at = data.sel(error_measure=measure)
@@ -91,7 +90,7 @@ def _draw_errors(axes, harmonics, measure):
 
 
 def _guide(data, at):
-    """Return a line of the predicted decrease. It lies 3 times above the computed errors."""
+    """Return points of a line that falls as predicted, a factor of 3 above the computed errors."""
     highest, error = data["highest_harmonic"].values, at["series_error"].values
     used = (highest >= data["asymptotic_harmonic"].item()) & (error > ROUNDING)
     if not used.any():
@@ -172,7 +171,6 @@ def _draw_classes(axes, data, name, classes):
 
 
 def _draw_edge(axes, verdict):
-    """Draw the boundary of the region in which harmonic balance has a stable solution."""
     stable = decode(verdict) == "stable"
     if stable.any() and not stable.all():
         line = {"colors": [style.BLACK], "linewidths": 1.0, "linestyles": "dashed"}
@@ -182,7 +180,6 @@ def _draw_edge(axes, verdict):
 
 
 def _draw_ends(axes, data):
-    """Draw lines where exact quiet orbits cease to exist, for elastic and for rigid walls."""
     inside = decode(data["quiet_end_event"]) != "map_ends"
     for end in data["quiet_end"].where(inside).values.T:
         axes.plot(end, data["map_value"], color=style.BLACK, linewidth=1.6)
@@ -194,7 +191,6 @@ def _draw_ends(axes, data):
 
 
 def _draw_chaos(axes, data):
-    """Draw a dot in each cell where a run that starts on the quiet solution becomes chaotic."""
     chaotic = np.isin(decode(data["quiet_run_motion"]), ["low_chaotic", "high_chaotic"])
     row, column = np.nonzero(chaotic)
     place = data["frequency_ratio"].values[column], data["map_value"].values[row]

@@ -41,7 +41,7 @@ def draw_optimum(*, optimum):
 
 @style.context()
 def draw_design_rules(*, design_rules):
-    """Draw the best clearance and rules for it over a parameter, and the errors of the rules."""
+    """Draw the best clearance, and the clearance by each rule, and the errors of the rules."""
     swept = [[name for name in SWEPT if data.sizes[name] > 1] for data in design_rules]
     sweeps = [
         (d, names[0]) for d, names in zip(design_rules, swept, strict=True) if len(names) == 1
@@ -57,7 +57,6 @@ def draw_design_rules(*, design_rules):
 
 
 def _draw_sweep(axes, data, name):
-    """Draw best clearances as points and rules as lines, over the parameter `name`."""
     data = data.squeeze([other for other in SWEPT if other != name], drop=True)
     for index, mass_ratio in enumerate(data["mass_ratio"].values):
         one = data.sel(mass_ratio=mass_ratio)
@@ -79,7 +78,6 @@ def _draw_sweep(axes, data, name):
 
 
 def _draw_errors(axes, datasets):
-    """Draw the cumulative distribution of the relative errors of each rule for the clearance."""
     for rule, look in RULES.items():
         errors = np.concatenate(
             [

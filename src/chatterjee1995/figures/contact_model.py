@@ -21,7 +21,7 @@ MOTIONS = (
 
 @style.context()
 def draw_contact_model(*, contact_model):
-    """Draw maps of the error of the restitution, for contacts that end at zero depth or force."""
+    """Draw maps of the error of the restitution: contacts end at zero depth, or at zero force."""
     drawn = style.figure("double", 4.0)
     panels = drawn.subplots(1, 2, sharex=True, sharey=True)
     data = contact_model[0]

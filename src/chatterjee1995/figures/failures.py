@@ -87,7 +87,6 @@ def draw_stable_steps(*, stable_steps):
 
 
 def _draw_method(axes, data, index, title):
-    """Draw the largest accurate time steps of an integrator, and its linear stability limit."""
     looks = dict(zip(data["accuracy"].values, list(LINES.values())[:2], strict=True))
     for accuracy, look in looks.items():
         step = data["stable_step"].sel(accuracy=accuracy) * data["contact_frequency"]
@@ -99,7 +98,7 @@ def _draw_method(axes, data, index, title):
 
 
 def _edges(values):
-    """Return edges of map cells around values on a log axis. One cell alone is a decade wide."""
+    """Return the edges of map cells around values on a log axis. A single cell is a decade wide."""
     if len(values) == 1:
         return np.asarray(values) * np.sqrt([0.1, 10])
     return np.exp(edges_of(np.log(values)))

@@ -56,7 +56,7 @@ def draw_release(*, migration):
     drawn, panels = style.grid(len(sources), 2.6, 0.6, columns)
     for axes, (runs, row) in zip(panels, sources, strict=True):
         _draw_releases(axes, runs.isel(damped=row))
-    # If a row has three panels, only the middle one has a label, since three would overlap.
+    # Of three panels side by side only the middle panel has a label: three labels would overlap.
     for axes in panels[1::3] if columns == 3 else panels:
         axes.set_xlabel(style.axis_label(migration[0]["release_displacement"]))
     drawn.supylabel(style.axis_label(migration[0]["release_velocity"]), fontsize="medium")
@@ -107,7 +107,7 @@ def _draw_case(above, below, one):
         look = style.curve(k) | {"marker": style.CURVES[k][2], "label": POLICIES[policy]}
         success = one["policy_success"].sel(policy=policy).values
         spread = np.abs(success[:, 1:] - success[:, :1]).T
-        # Each policy is shifted a little in frequency, so that no interval hides another.
+        # Each curve is shifted a little in frequency, so that no error bar hides another.
         above.errorbar(frequency + 0.004 * (k - 1.5), success[:, 0], spread, capsize=1.5, **look)
         cycles = one["policy_cycles"].sel(policy=policy, quantile=0.5).values
         middle = np.where(np.isfinite(cycles[:, 0]), cycles[:, 0], np.nan)

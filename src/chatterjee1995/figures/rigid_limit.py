@@ -52,7 +52,6 @@ def _draw_map(axes, data, norm):
 
 
 def _draw_orders(axes, rigid_limit):
-    """Draw the error of max |Z1| over the stiffness r1, with lines of the slopes -1/2 and -1."""
     for index, data in enumerate(rigid_limit):
         row = data.sel(frequency=parameters_of(data)["frequency"], method="nearest")
         x, look = data["stiffness"], style.curve(index)

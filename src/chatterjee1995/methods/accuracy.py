@@ -103,7 +103,6 @@ def accuracy(system, damper, *, name, settings, references, **given):
 
 
 def _integrations(scene, settings, slow_periods):
-    """Run each integrator at each tolerance; yield its label, tolerance, `Run` and cycles."""
     p, start = scene.p, np.array(scene.state, float)
     given = p, start, strobe_time(p), scene.periods
     for tolerance in settings["taylor"]:
@@ -115,7 +114,7 @@ def _integrations(scene, settings, slow_periods):
         run = orbit_models.rigid(p, restitution, *given[1:], tolerance)
         yield "rigid", tolerance, run, scene.periods
     for label, (integrator, locate) in runs_of_accuracy().items():
-        # Without a damper there are no contacts at which steps could end, so one run is enough.
+        # Without a damper there are no contacts to locate: the run with `locate` false is enough.
         if scene.damper is None and locate and False in integrator.located:
             continue
         tolerances, periods, most = settings[integrator.tolerances], scene.periods, None
@@ -173,7 +172,6 @@ def _named(scene, rows, status, errors):
 
 
 def _orbits(scene, settings):
-    """For each model of a steady motion yield its label, its setting and the `Model`."""
     parts = scene.oscillator, scene.damper, scene.frequency
     state = np.array(scene.state, float)
     yield "rigid_balance", 1, orbit_models.rigid_balance(*parts, state)
@@ -189,7 +187,6 @@ def _orbits(scene, settings):
 
 
 def _times(scene, model, reference):
-    """Return when a model's contacts begin, in the order of the reference's contacts, or NaN."""
     p, period = scene.p, 2 * np.pi / scene.frequency
     count = len(reference.contact_times) // scene.periods
     if len(model.contact_phases) != count or count == 0:

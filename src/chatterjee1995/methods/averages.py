@@ -1,4 +1,4 @@
-"""Averages over a chaotic motion. Their standard errors follow from the averages over batches."""
+"""Averages over a chaotic motion. The scatter over batches of cycles gives standard errors."""
 
 import math
 
@@ -13,7 +13,7 @@ from impact_damper.motions.strobe_map import strobe_time
 
 
 def of_run(p, run, begin, periods, batch):
-    """Return the contacts and the largest |Z1| in a cycle, averaged over each batch of cycles."""
+    """Return averages over batches of cycles: number of contacts and largest |Z1| in a cycle."""
     count = periods // batch
     edges = begin + 2 * math.pi / p[FREQUENCY] * np.arange(count * batch + 1)
     contacts = np.histogram(run.contact_times, edges)[0]
@@ -28,7 +28,7 @@ def of_run(p, run, begin, periods, batch):
 
 
 def exponents(p, start, tolerance, periods, batch, restitution=None):
-    """Return the largest Lyapunov exponent over each batch of cycles."""
+    """Return the largest Lyapunov exponent in each batch. With a `restitution` walls are rigid."""
     y, tangent, work = start.copy(), np.full((1, 4), 0.5), workspace()
     side, begin, period = side_of(p, y), strobe_time(p), 2 * math.pi / p[FREQUENCY]
     rows = np.empty(periods)
@@ -45,7 +45,7 @@ def exponents(p, start, tolerance, periods, batch, restitution=None):
 
 
 def estimates(batches):
-    """Return mean (row 0) and standard error (row 1) of each average; NaN if not in `batches`."""
+    """Return the mean (row 0) and standard error (row 1) of each average, NaN without batches."""
     table = np.full((2, len(STATISTICS)), np.nan)
     for k, name in enumerate(STATISTICS):
         if name in batches:

@@ -54,7 +54,6 @@ class _Wave(NamedTuple):
 
 
 def _waves(restitution, load):
-    """Return the penetration and the force of the wall as functions of the scaled time."""
     z = damping_ratio(restitution)
     w = math.sqrt(1 - z * z)
     penetration = _Wave(load, -load, (1 - z * load) / w, z, w)

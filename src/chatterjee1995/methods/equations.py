@@ -26,7 +26,7 @@ def wall_at(p, z):
 
 @kernel
 def ahead(p, side, z):
-    """Return the distance to the nearest wall in flight (`side` 0), the penetration in contact."""
+    """Return the distance to the nearest wall, or in contact (`side` not 0) the penetration."""
     return p[CLEARANCE] - abs(z) if side == 0 else side * z - p[CLEARANCE]
 
 

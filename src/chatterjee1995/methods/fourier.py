@@ -92,7 +92,7 @@ def _cells(function, coefficients, harmonics, ends, values):
 
 
 def indicator(rows, orders) -> np.ndarray:
-    """Return the Fourier coefficients of a function: 1 in the intervals `rows`, 0 elsewhere."""
+    """Return Fourier coefficients of the function that is 1 in the intervals `rows`, else 0."""
     _, begin, end = rows.T[:, :, None]
     half = (end - begin) / 2
     turn = np.exp(-0.5j * orders * (begin + end))

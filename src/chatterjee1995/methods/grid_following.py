@@ -30,7 +30,11 @@ def follow_line(
 
 
 class Grid:
-    """Orbits in the cells `points` of a grid, each followed from the orbit of a neighbour."""
+    """Orbits in the cells of a grid, each followed from the orbit of a neighbouring cell.
+
+    `points[cell]` holds the parameters of a cell. `correct(parameters, guess)` returns the orbit
+    near the state `guess`, or None, and a status. `orbits` is a dict: cell -> orbit.
+    """
 
     def __init__(self, points, correct, *, shortest=SHORTEST, axes=None, extrapolating=False):
         self.points, self.correct = points, correct

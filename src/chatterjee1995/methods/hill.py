@@ -16,8 +16,8 @@ EDGE = 1e-2
 class Exponents(NamedTuple):
     """Floquet exponents per unit of T, in the order of their real parts.
 
-    There are 2 exponents, or 4 with a damper. The status is "not_separated" if another number of
-    values has -W < Im <= W. If the status is not "found", all exponents are NaN.
+    There are 2 exponents, or 4 with a damper. The status is "not_separated" if more or fewer
+    values have -W < Im <= W. If the status is not "found", all exponents are NaN.
     """
 
     values: np.ndarray
@@ -48,7 +48,7 @@ def exponents(solution) -> Exponents:
 
 
 def _near_zero(stiffness, damping, inertia):
-    """Return eigenvalues lambda of (stiffness + lambda damping + lambda^2 inertia) p = 0."""
+    """Return the lambda nearest to 0 with (stiffness + lambda damping + lambda^2 inertia) p = 0."""
     size = len(stiffness)
     factors = lu_factor(stiffness, check_finite=False)
 

@@ -1,4 +1,4 @@
-"""The interface of integrators, and the results that are read off from the ends of steps."""
+"""The interface of integrators, and the search for contacts and turning points within steps."""
 
 from typing import ClassVar, NamedTuple
 
@@ -15,8 +15,8 @@ class Run(NamedTuple):
     """A computed motion. Its `state` is the last state, its `displacement` the largest |Z1|.
 
     `status` is "ended", "failed", or "capped" after too many evaluations. Contacts begin at the
-    times `contact_times`. `peaks` are the values of |Z1| at its turning points, at the times
-    `peak_times`. With rigid walls `peaks` are the largest |Z1| in each cycle.
+    times `contact_times`. `peaks` are the values of |Z1| at turning points of Z1, at the
+    times `peak_times`. With rigid walls `peaks` are the largest |Z1| in each cycle.
     """
 
     status: str
@@ -29,7 +29,7 @@ class Run(NamedTuple):
 
 
 def stopped(status, work):
-    """Return the `Run` of a motion that did not reach its end. Its results are NaN or empty."""
+    """Return a `Run` without results (NaN or empty), for a motion that did not reach its end."""
     none = np.empty(0)
     return Run(status, work, np.full(4, np.nan), none, none, none, np.nan)
 
@@ -43,8 +43,8 @@ class Integrator:
 
     Figures show integrators in the order of `place`. `compared` names the stages that use the
     integrator. For each of these stages the integrator defines one of the functions in REQUIRED.
-    `located` holds the values of `locate` with which the stage `accuracy` runs it. `tolerances` is
-    one of `labels.TOLERANCE_KEYS`. A `slow` integrator runs for fewer cycles. `stability_limit` is
+    `located` holds the values of `locate` that the stage `accuracy` compares. `tolerances` is one
+    of `labels.TOLERANCE_KEYS`. A `slow` integrator runs for fewer cycles. `stability_limit` is
     the largest step, times natural frequency, with which an undamped linear oscillation stays
     bounded.
     """
@@ -71,29 +71,33 @@ class Integrator:
         raise NotImplementedError
 
     def run(self, p, *given) -> Run:
-        """Return the `Run` that `steps` computes. The arguments are those of `steps`."""
+        """Call `steps` with the same arguments, and return its results as a `Run`."""
         status, work, times, ends = self.steps(p, *given)
         if status != "ended" or not np.isfinite(ends).all():
             return stopped("failed" if status == "ended" else status, work)
         return read_off(p, work, times, ends)
 
     def flight(self, p, state, end, resolution, time):
-        """Run without walls to T = `end`; return |Z2| after each step and at `time`, or None."""
+        """Run without walls from T = 0 to `end`. Return |Z2| after each step, and |Z2| at `time`.
+
+        If the run fails, return None.
+        """
         raise NotImplementedError
 
     def touches(self, p, state, levels, resolution):
-        """Return for each clearance in `levels` whether the motion has a contact.
+        """Return for each clearance in `levels` whether the integrator finds a contact.
 
-        By default return None. Then the values of |Z2| from `flight` decide this.
+        By default return None. Then it counts as a contact if a |Z2| from `flight` is larger than
+        the clearance.
         """
 
     def largest_displacements(self, p, start, begin, periods, steps) -> np.ndarray:
-        """Return the largest |Z1| of each cycle, or NaN. A cycle is divided into `steps` steps."""
+        """Return the largest |Z1| of each cycle, or NaN after the motion has diverged."""
         raise NotImplementedError
 
 
 def read_off(p, work, times, ends):
-    """Return the `Run` of a motion that is known at the ends of its steps."""
+    """Return the `Run` of a motion whose steps end at `times`, in the states `ends`."""
     at, peaks = _turning_points(p, times, ends)
     began = _beginnings(p, times, ends)
     return Run("ended", work, ends[-1], began, at, peaks, float(np.max(peaks)))
@@ -122,7 +126,7 @@ def _turning_points(p, times, ends):
 
 
 def _quintics(p, times, ends, index, steps):
-    """Return the polynomials (as columns) that interpolate a state component in given steps."""
+    """Return a polynomial (as a column) for each of `steps`. It interpolates a state component."""
     rates = [
         np.array([rate(p, wall_at(p, ends[k, 2]), times[k], tuple(ends[k])) for k in at])
         for at in (steps, steps + 1)

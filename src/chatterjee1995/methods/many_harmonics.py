@@ -70,7 +70,7 @@ class Balance:
         return fourier.intervals(coefficients[1], self.harmonics, self.damper.clearance)
 
     def residual(self, coefficients, rows) -> np.ndarray:
-        """Return the left minus the right sides of (3), (4), (20), (21). `rows` are contacts."""
+        """Return left minus right sides of (3), (4), (20), (21). `rows` is from `contacts`."""
         k, rate, own = self.harmonics, self.rates, self.oscillator
         first = coefficients[0]
         count = fourier.product_samples(k, SPRING_POWER)
@@ -125,9 +125,9 @@ class Balance:
 
 
 def _convolution(coefficients, harmonics):
-    """Return matrices A and B that multiply a series by the series with these `coefficients`.
+    """Return the matrices A and B of a product with the series that has these `coefficients`.
 
-    If z are the coefficients of a series at `harmonics`, those of the product are A z + B conj(z).
+    If another series has the coefficients z, the product has the coefficients A z + B conj(z).
     """
     two_sided = np.concatenate([coefficients[:0:-1].conj(), coefficients])
     zero = len(coefficients) - 1
@@ -136,7 +136,7 @@ def _convolution(coefficients, harmonics):
 
 
 def _real(by_value, by_conjugate):
-    """Return the map of z to by_value z + by_conjugate conj(z) as a matrix for (Re z, Im z)."""
+    """Return the matrix for (Re z, Im z) of the map z -> by_value z + by_conjugate conj(z)."""
     total, difference = by_value + by_conjugate, by_value - by_conjugate
     return np.block([[total.real, -difference.imag], [total.imag, difference.real]])
 
@@ -193,7 +193,7 @@ def solve(balance, start) -> Solution:
 
 
 def single_term(oscillator, damper, frequency) -> np.ndarray:
-    """Return coefficients of the smallest solution of (7), without a damper of the largest."""
+    """Return coefficients of the smallest solution of (7), or, if free, of the largest solution."""
     if damper is None:
         free = main_solutions(oscillator, frequency)
         return free.amplitude[-1:, None] * np.exp(1j * free.phase[-1]) / 2
@@ -207,7 +207,7 @@ def single_term(oscillator, damper, frequency) -> np.ndarray:
 
 
 def refine(balances, start) -> list:
-    """Solve each balance from the last solution that converged, the first from `start`."""
+    """Solve each balance, at first from `start`, then from the last solution that converged."""
     solutions = []
     for balance in balances:
         solutions.append(solve(balance, start))

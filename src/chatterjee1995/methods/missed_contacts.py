@@ -68,7 +68,7 @@ def missed_contacts(
 
 
 def counts(integrator, p, passages, depths, resolution):
-    """Return counts of found and missed contacts, counts of invented ones, and an error of |Z2|."""
+    """Return counts of contacts by outcome, of invented contacts, and the error of max |Z2|."""
     end = 2 * math.pi / p[FREQUENCY]
     touching = np.zeros((len(depths), len(OUTCOMES)), int)
     spurious = np.zeros(len(depths), int)
@@ -110,7 +110,7 @@ def _count_table(p, passages, depths, tolerances, steps):
 
 
 def _expected(passages, depths, steps, period):
-    """Return the expected share of contacts that begin and end within one step, by step and depth.
+    """Return by step and depth the expected share of contacts that begin and end within one step.
 
     A contact lasts b = 2 sqrt(2 depth/|Z2''|). A step h contains it with chance max(0, 1 - b/h).
     """

@@ -53,8 +53,9 @@ class QuietOrbits(NamedTuple):
 
     multiplier: Dominant eigenvalue of the map of half a cycle. Its square is a Floquet multiplier.
     displacement, harmonic: max |Z1|, and the amplitude of the first harmonic of Z1.
-    end: Columns, with a fraction, between which a row of the grid has orbits; shape (rows, 2).
-    end_event: map_ends (edge of the grid), no_orbit, fold, contacts_change or not_converged.
+    end: First and last column, with a fraction, of the orbits in each row; shape (rows, 2).
+    end_event: What ends them there: map_ends (edge of the grid), fold, contacts_change,
+        not_converged, or no_orbit in a row without orbits.
     """
 
     multiplier: np.ndarray
@@ -129,7 +130,7 @@ def _row_ends(grid, row):
 
 def _end(followed):
     """Return the fraction of the way to the next cell at which orbits end, and what ends them."""
-    # This step to the next cell failed in `spread`. It can succeed now that more cells are known.
+    # `spread` did not reach the next cell. Following succeeds now, since more cells are known.
     if followed.arrived:
         return 0.0, "not_converged"
     before, fraction = followed.values
@@ -147,7 +148,7 @@ def _end(followed):
 FIRST_HARMONIC_RATIO = np.pi**2 / 8
 # IMPULSE is the `impulse` q of a `Flight` for which |Z1| is equally large at an impact and at a
 # turning point. TURN is the phase phi of this turning point. For e = 1, without damping and spring,
-# they solve q - 1 = cos(phi) - q + 2 q phi/pi and sin(phi) = 2 q/pi.
+# q and phi solve q - 1 = cos(phi) - q + 2 q phi/pi and sin(phi) = 2 q/pi.
 IMPULSE, TURN = 1.1382168528663819, 0.8104702831754177
 # CRITERIA: quantities of Z1. An optimum clearance minimises one of these quantities.
 # RULES: rules for the optimum clearance, see `rule_ratios`.
@@ -156,7 +157,7 @@ RULES = ("balance", "gap_harmonic", "straight_flight", "elastic", "flight")
 
 
 def elastic_ratios(flight) -> tuple[float, float]:
-    """Return rm W^2 d0/f at which max |Z1|, or the first harmonic of Z1, is smallest (e = 1)."""
+    """Return rm W^2 d0/f with the least max |Z1|, and with the least first harmonic (for e = 1)."""
     if flight.restitution != 1:
         return np.nan, np.nan
     contact, damping, whole = flight.contact, flight.damping, 1 + flight.mass_ratio

@@ -116,7 +116,7 @@ def rigid_orbit(oscillator, damper, frequency, guess, reach):
 
 
 def mended_orbit(oscillator, damper, frequency, orbit, reach):
-    """Return the `RigidOrbit` with walls corrected to imitate compliant ones, and a status."""
+    """Return the `RigidOrbit` with walls corrected to imitate compliant walls, and a status."""
     e, h, v, before = damper.restitution, oscillator.damping, orbit.speed, orbit.acceleration
     reduced = damper.mass_ratio / (1 + damper.mass_ratio)
     z, natural = damping_ratio(e), damper.contact_frequency

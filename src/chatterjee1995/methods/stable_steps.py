@@ -78,7 +78,7 @@ def orbits_over_stiffness(oscillator, damper, frequency, stiffnesses) -> list:
 
 
 def _in_steps(own, targets):
-    """Return `own` and the targets, and values between them that make the steps small."""
+    """Return values of r1 from `own` over all `targets`, with steps of at most a factor FACTOR."""
     cells = [np.array([own])]
     for before, target in itertools.pairwise([own, *targets]):
         count = max(math.ceil(abs(math.log(target / before)) / math.log(FACTOR)), 1)
@@ -127,7 +127,6 @@ def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, mo
 
 
 def _deviations(method, orbits, counts, tested, periods):
-    """Return the largest relative error of max |Z1| in a cycle, for each orbit and tested step."""
     deviations = np.full(counts.shape, np.nan)
     for i, orbit in enumerate(orbits):
         if orbit is None:

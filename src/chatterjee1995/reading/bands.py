@@ -10,7 +10,7 @@ from chatterjee1995.reading import orbits
 
 
 class Band(NamedTuple):
-    """A suppression band. Its lower end lies between `lower` and `lower + resolution`."""
+    """A suppression band in W. It ends at `upper`, and begins in [lower, lower + resolution]."""
 
     lower: float
     upper: float
@@ -28,7 +28,7 @@ class Band(NamedTuple):
 
 
 def high_motions(response, free):
-    """Return a mask of violent motions. None is violent above the end of the free resonance."""
+    """Return a mask of violent motions. At W above the end of the free resonance it is false."""
     frequency = response.frequency
     size = xr.DataArray(orbits.resonance(free, frequency), {"frequency": frequency})
     return reading.touching(response) & (response.maximum_displacement > orbits.HALF * size)
@@ -43,9 +43,10 @@ def quiet_motions(response, free):
 def suppression_band(datasets, name):
     """Return the suppression band of a curve as a `Band`.
 
-    The band reaches from the highest W of a violent motion to the end of the free resonance.
-    Without violent motions, `lower` and `resolution` are NaN. If only periodic motions are
-    violent, `resolution` is 0. Otherwise `resolution` is at most a step between computed W.
+    The band reaches from the highest W at which a motion is violent to the end of the free
+    resonance. If all violent motions are periodic, `resolution` is 0. Otherwise it is at most the
+    distance between two neighbouring W at which motions are simulated. Without violent motions,
+    `lower` and `resolution` are NaN.
     """
     branches, free = orbits.of_curve(datasets, name)
     response = reading.get(datasets, "response", name)

@@ -9,7 +9,7 @@ from impact_damper.data.datasets import decode, flag, has_damper, named, paramet
 
 # Curves of figure 3 with the printed clearances, sorted by omega_l. Figure 5 (a) is figure 3 (c).
 CAPTIONS = ("figure_05a", "figure_03b", "figure_03a")
-# The same curves with the clearances that follow from rule (19).
+# Curves of figure 3 with clearances by rule (19) in place of the printed clearances.
 RULES = ("figure_03c_rule", "figure_03b_rule", "figure_03a_rule")
 BY_MASS = ("figure_05a", "figure_05b", "figure_05c")  # curves of figure 5, sorted by mass ratio
 ELASTIC = (*BY_MASS, "figure_08")  # all simulated responses with elastic contact
@@ -51,7 +51,7 @@ def free(datasets, stage) -> dict:
 
 
 def parameter(data, name):
-    """Return one of the parameters with which a dataset was computed."""
+    """Return the parameter `name` with which a dataset was computed."""
     return parameters_of(data)[name]
 
 
@@ -77,14 +77,14 @@ def touching(response):
 
 
 def share_of_starts(response, motions):
-    """Return at each frequency the share of random starts that lead to motions in a mask."""
+    """Return the share of random starts at each W that lead to motions in the mask `motions`."""
     total = response.motion_starts.sum("motion")
     led = response.motion_starts.where(motions, 0).sum("motion")
     return (led / total.where(total > 0)).fillna(0)
 
 
 def within(data, lower, upper):
-    """Return the part of a dataset with frequencies in a range, or raise Missing if it is empty."""
+    """Return the part of a dataset from W = `lower` to `upper`, or raise Missing if it is empty."""
     part = data.sel(frequency=slice(lower, upper))
     if part.sizes["frequency"] == 0:
         raise Missing(f"There is no frequency from {lower:.4g} to {upper:.4g}")
@@ -110,19 +110,19 @@ def band_edges(design):
 
 
 def stable_impacting(design):
-    """Return the amplitude a of the solutions of (7) that are stable with impacts, else NaN."""
+    """Return the amplitude a of each solution of (7), NaN if it has no impacts or is not stable."""
     stable = design.stability == flag("stability", "stable")
     return design.amplitude.where(stable & (design.kind == flag("kind", "impacting")))
 
 
 def quiet_balance(design):
-    """Return at each W the amplitude a of the stable solution of (7) with impacts and least |a|."""
+    """Return at each W the amplitude a of least |a| among stable solutions of (7) with impacts."""
     amplitude = stable_impacting(design)
     return amplitude.isel(solution=np.abs(amplitude).fillna(np.inf).argmin("solution"))
 
 
 def design_point(orbit):
-    """Return the exact quiet orbit at the peak frequency of a design, or raise Missing."""
+    """Return the exact quiet orbit at the peak frequency from a dataset, or raise Missing."""
     if named(orbit, "design_orbit_status") != "found":
         raise Missing("There is no quiet orbit at a design point: the continuation ended before")
     return orbit.isel(point=int(np.argmin(orbit.followed_value.values)))

@@ -1,4 +1,4 @@
-"""Exact periodic orbits at any frequency, interpolated within pieces of branches.
+"""Exact periodic orbits at any frequency, interpolated between neighbouring orbits of a branch.
 
 The argument `free` is a dataset of branches without damper. An orbit is violent (high) if its
 max |Z1| is more than half of max |Z1| of the free resonance at the same frequency.
@@ -17,7 +17,7 @@ INTERPOLATED = ("frequency", "size", "amplitude", "loose")  # columns interpolat
 
 
 def free_of(datasets, data):
-    """Return the branches without damper of the oscillator of `data`, or raise Missing."""
+    """Return the branches of the oscillator of `data` without a damper, or raise Missing."""
     wanted = oscillator_of(data)
     for free in reading.free(datasets, "branches").values():
         if oscillator_of(free) == wanted:
@@ -26,7 +26,7 @@ def free_of(datasets, data):
 
 
 def of_curve(datasets, name):
-    """Return two datasets of branches: of a curve, and of its oscillator without damper."""
+    """Return two datasets: branches of a curve, and branches of its oscillator without damper."""
     branches = reading.get(datasets, "branches", name)
     return branches, free_of(datasets, branches)
 
@@ -34,13 +34,15 @@ def of_curve(datasets, name):
 def pieces(branches) -> pd.DataFrame:
     """Return a table of pieces. A piece joins two successive orbits of a branch.
 
-    `lower` and `upper` are the lower and the higher frequency W of the two orbits. `frequency`,
-    `size` (max |Z1|), `amplitude` and `loose` are means over both orbits. `size_change` and so on
-    are the value at the second orbit minus the value at the first. `amplitude` and `loose` are
-    complex. The modulus is the first harmonic of Z1. The phase of `amplitude` is relative to Z2,
-    the phase of `loose` relative to the displacement of the loose mass, Z1 - Z2. `fewest` and
-    `contacts` are the lower and the higher number of contacts a cycle. `restitution` is the least
-    speed after a contact over the speed before it.
+    `lower`, `upper`: the lower and the higher frequency W of the two orbits.
+    `fewest`, `contacts`: the lower and the higher number of contacts a cycle of the two orbits.
+    `restitution`: the least ratio of the speed after a contact to the speed before this contact.
+    `frequency`, `size` (max |Z1|), `amplitude`, `loose`: means over the two orbits.
+    `frequency_change` and so on: the value at the second orbit minus the value at the first orbit.
+
+    `amplitude` and `loose` are complex, both with the amplitude of the first harmonic of Z1 as the
+    modulus. The phase of `amplitude` is the phase of Z1 relative to Z2. The phase of `loose` is the
+    phase of Z1 relative to the displacement of the loose mass, Z1 - Z2.
     """
     number = branches.orbit_branch.values
     first = np.flatnonzero(number[1:] == number[:-1])
@@ -71,7 +73,7 @@ def pieces(branches) -> pd.DataFrame:
 
 
 def ranges(part):
-    """Return the disjoint frequency ranges [lower, upper] that pieces of branches cover."""
+    """Return the disjoint frequency ranges [lower, upper] that the pieces in a table cover."""
     merged = []
     for lower, upper in part[["lower", "upper"]].sort_values("lower").to_numpy():
         if merged and lower <= merged[-1][1]:
@@ -82,12 +84,12 @@ def ranges(part):
 
 
 def covered(part, lower=-np.inf, upper=np.inf):
-    """Return the width of the frequency ranges within [lower, upper] that pieces cover."""
+    """Return the total width of the frequency ranges in [lower, upper] that pieces cover."""
     return sum(np.ptp(np.clip(ends, lower, upper)) for ends in ranges(part))
 
 
 def coexisting(part, column):
-    """Return over how wide a frequency range orbits with different values of `column` coexist."""
+    """Return how wide a range of W is in which orbits with different values of `column` coexist."""
     values = [ranges(same) for _, same in part.groupby(column)]
     if not values:
         return 0.0
@@ -137,7 +139,7 @@ def resonance_fold(free):
 
 
 def resonance(free, frequency):
-    """Return max |Z1| of the free resonance at each frequency, NaN above the fold that ends it."""
+    """Return max |Z1| of the free resonance at each frequency, NaN above the end of its branch."""
     end, _ = resonance_fold(free)
     part = pieces(free)
     sizes = largest_sizes(part[part.period == 1], frequency)
@@ -171,7 +173,7 @@ def high_counterparts(design, branches, free) -> pd.DataFrame:
     """Return a table: for each stable violent solution of (7) the exact orbit nearest in amplitude.
 
     Equation (7) is harmonic balance with one harmonic. It approximates only symmetric orbits of
-    period 1 with two contacts, so no other orbits are compared.
+    period 1 with two contacts, so all other orbits are left out.
     """
     part = pieces(branches)
     part = part[(part.period == 1) & (part.asymmetry < SYMMETRIC)]
@@ -203,6 +205,6 @@ def subharmonic_range(free):
 
 
 def stable_subharmonics(branches):
-    """Return the pieces of branches whose orbits are stable, of a period of 3, 6, 9, ... cycles."""
+    """Return the pieces of branches whose orbits are stable and have period 3, 6, 9, ... cycles."""
     part = pieces(branches)
     return part[part.stable & (part.period % 3 == 0)]

@@ -1,4 +1,4 @@
-"""Sections on harmonic balance: its convergence, and maps of its errors."""
+"""Sections on harmonic balance: errors by number of harmonics, and maps of errors."""
 
 from typing import ClassVar
 
@@ -12,7 +12,7 @@ MAPPED = ("damping", "mass_ratio", "clearance", "restitution")  # a map varies o
 
 
 class HarmonicConvergence(system.MaybeWithDamper):
-    """Motions by harmonic balance with a rising number of harmonics, and their errors."""
+    """Errors of harmonic balance with a rising number of harmonics, for a motion."""
 
     whole: ClassVar = (*system.NEEDED, "contact_stiffness")
 
@@ -74,7 +74,7 @@ class BalanceMap(
         priority=1,
     )
     def balance_map(self, config) -> dict:
-        # The word `rule` is left out. If the stage gets no clearance, it uses rule (19).
+        # A clearance given as the word `rule` is left out. Without a clearance, rule (19) sets it.
         values = system.given(self, [*system.OSCILLATOR, *system.DAMPER]).items()
         fixed = {key: value for key, value in values if value != "rule"}
         points = config.points

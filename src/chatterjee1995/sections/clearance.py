@@ -15,7 +15,7 @@ from impact_damper.command.section import (
 )
 from impact_damper.model.bounds import MOST_RUNS
 
-# Axes of the grid of a study. The stage counts the cells (grid points) in this order.
+# Axes of the grid of a study. The cells are counted in this order, the last axis fastest.
 AXES = ("mass_ratio", "clearance", "frequency", "restitution")
 
 
@@ -124,7 +124,7 @@ class Study(system.WithOscillator):
 
     @stage("chatterjee1995.stages.studies:study_chunk", "The study {name}")
     def studies(self, config) -> dict:
-        """Return the parameters of the job that joins the parts of the grid."""
+        """Return {}: the job that joins the parts of the grid has no parameters."""
         return {}
 
 

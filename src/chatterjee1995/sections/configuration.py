@@ -155,7 +155,6 @@ class Figure(Section):
 
 
 def _curve_not_drawable(path, name, kind, config):
-    """If a figure of this kind cannot draw the curve, yield error lines that say why."""
     curve, stage = config.curves[name], kind.stages[0]
     if stage not in curve.stages:
         reason = f"must hold {stage} (what {dotted(path[:2])} draws)"
@@ -210,7 +209,7 @@ def configuration(given, trusted=False):
 
 
 def without_left_out(given):
-    """Return the configuration without entries that are null. Figures do not draw them."""
+    """Return the configuration without null entries, and without their names in figures."""
     if not isinstance(given, dict):
         return given
     sections = {key: value for key, value in given.items() if isinstance(value, dict)}

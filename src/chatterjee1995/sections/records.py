@@ -18,7 +18,7 @@ class Stage(NamedTuple):
     reads: dict = {}  # argument of `function` -> stages that compute its value for the entry
     files: dict = {}  # argument of `function` -> JSON file; the content is the argument's value
     together: bool = False  # whether one job computes all entries (jobs start slowly)
-    # 2 if other jobs wait for the job; 1 for the longest jobs, which should not start last.
+    # 2 if other jobs wait for this job; 1 for long jobs, which should not start last; else 0.
     priority: int = 0
     paper: bool = True  # whether `snakemake` without a target computes the stage
     page: bool = False  # whether each entry has its own page
@@ -36,7 +36,7 @@ def stage(function, message, **options):
 
 @dataclass(frozen=True)
 class Shown:
-    """A table or a kind of figure. A function of `module` makes it from datasets."""
+    """A table, or a kind of figure. Functions in the module `module` make both from datasets."""
 
     name: str
     chapter: str
@@ -47,7 +47,7 @@ class Shown:
 
     @property
     def source(self) -> str:
-        """Full name of the module."""
+        """Full name of `module`, with its packages."""
         return self.module if "." in self.module else f"chatterjee1995.{self.room}.{self.module}"
 
 

@@ -33,7 +33,6 @@ def _table(model, keys=None):
 
 
 def _rows(prefix, fields):
-    """Yield a row of the table for each field, and for a section the rows of its fields."""
     for key, field in fields.items():
         kind, key = field.annotation, prefix + key
         if get_origin(kind) is dict:

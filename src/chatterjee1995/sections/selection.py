@@ -31,7 +31,10 @@ def job(config, stage, name) -> dict:
 
 
 def read_by(config, stage, name) -> dict:
-    """Return a dict: argument of a stage's function -> stages that compute it for an entry."""
+    """Return a dict: argument of the function of `stage` -> names of the stages read for it.
+
+    Only stages that have a dataset of the entry `name` are listed.
+    """
     return {
         key: [each for each in stages if name in entries(config, each)]
         for key, stages in STAGES[stage].reads.items()

@@ -48,7 +48,7 @@ NEEDED = ("mass_ratio", "clearance", "restitution")  # parameters that a damper 
 
 
 def keys_of(names, *, needed=(), without=()):
-    """Return a base class with a key for each of `names`. Only keys in `needed` are required."""
+    """Return a class with the keys `names` except `without`. Only keys in `needed` are required."""
     types = {
         name: PARAMETERS[name] if name in needed else (PARAMETERS[name], None)
         for name in names
@@ -76,7 +76,7 @@ class Range(Section):
         return {"linspace": [self.first, self.last, points or self.points]}
 
     def geometric(self, points=None) -> dict:
-        """Return a dict from which a job makes values with a constant ratio over the range."""
+        """Return a dict from which a job makes a geometric series of values over the range."""
         return {"geomspace": [self.first, self.last, points or self.points]}
 
 
@@ -128,7 +128,7 @@ class WithDamper(keys_of(DAMPER, needed=NEEDED, without=[COMMON]), WithOscillato
 
 
 class MaybeWithDamper(keys_of(DAMPER, without=[COMMON]), WithOscillator):
-    """An entry with an oscillator. It may have a damper, with all parameters in `whole`."""
+    """An entry with an oscillator. With a damper it has all parameters in `whole`, else none."""
 
     whole: ClassVar = NEEDED
 
@@ -160,7 +160,7 @@ def damper_values(entry, config) -> dict:
 
 
 def too_many(path, section, keys):
-    """Yield an error line if the product of the values at `keys` is too large a number of runs."""
+    """Yield an error line if the number of runs is too large: the product of values at `keys`."""
     counts = []
     for key in keys:
         value = section

@@ -71,10 +71,11 @@ HIGH = 0.5  # a motion is low if max |Z1| is below this fraction of `Cells.reson
 class Cells(NamedTuple):
     """Solutions of harmonic balance in all cells of a map, and the states from which runs start.
 
-    The starts belong to T = 0. `resonance` is the amplitude on the free resonance branch or, beyond
-    this branch, at its end. Where there is no quiet or high solution, its amplitude and its start
-    are NaN. But without a high solution `high_start` is a state of the free resonance branch, with
-    the loose mass at rest, as far as this branch reaches.
+    All starts are states at T = 0. `resonance` is the amplitude of the free resonance, or beyond
+    the end of its branch the amplitude at this end. In a cell without a quiet solution,
+    `quiet_amplitude` and `quiet_start` are NaN. In a cell without a high solution, `high_amplitude`
+    is NaN. There `high_start` is a state of the free resonance with the loose mass at rest, or NaN
+    beyond the end of the branch.
     """
 
     resonance: np.ndarray
@@ -102,7 +103,6 @@ def balance_cells(rows) -> Cells:
 
 
 def _cell(oscillator, damper, frequency):
-    """Return a `Cells` for one cell. Each field is a number or a state instead of an array."""
     free, phase = _resonance(oscillator, frequency)
     high_start = np.full(4, np.nan)
     if phase is not None:
@@ -217,7 +217,6 @@ def _rows(parameter, values, ratios, fixed):
 
 
 def _run(parameters, starts, settling, workers, progress):
-    """Run a motion in each cell that has a start. The outcome in other cells is "absent"."""
     asked = np.isfinite(starts[..., 0])
     records = np.zeros(asked.shape, MOTION)
     records["outcome"] = flag("outcome", "absent")
@@ -230,7 +229,6 @@ def _run(parameters, starts, settling, workers, progress):
 
 
 def _kinds(records, resonance):
-    """Return the kind of motion to which each run leads, as the flag `quiet_run_motion`."""
     low = records["maximum_displacement"] < HIGH * resonance
     quiet = low & is_symmetric_pair(records)
     outcome = records["outcome"]

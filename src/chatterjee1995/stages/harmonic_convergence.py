@@ -72,7 +72,7 @@ def asymptotic_harmonic(damper, frequency) -> float:
 
 
 def decay(damper, p, state) -> tuple:
-    """Return the predicted decrease: "algebraic" and powers of 1/N, or "exponential" and rates."""
+    """Return how errors decrease by theory: "algebraic", powers of 1/N, or "exponential", rates."""
     if damper is None:
         return "exponential", np.array(ANALYTIC) * p[FREQUENCY] * singularity_distance(p, state)
     return "algebraic", np.array(ELASTIC if damper.restitution == 1 else INELASTIC)
@@ -222,7 +222,6 @@ def errors(solutions, multipliers, exact):
 
 
 def _farthest(values, references):
-    """Pair values with references at the least sum of distances; return the largest distance."""
     if np.isnan(values).any():
         return np.nan
     away = np.abs(values[:, None] - references)

@@ -46,7 +46,7 @@ POLICIES = ["settled", "hold", "phase", "state"]
 # Policies choose among these numbers of cycles with the damper on. Successive ratios are about 1.6.
 HOLDS = (1, 2, 3, 5, 8, 13, 21, 34)
 QUANTILES = [0.5, 0.95]  # quantiles of the cycles until the goal
-# A run with the damper on. A strobe follows `ahead` cycles later, with the `state` (Z1, Z1').
+# A run with the damper on. The next strobe is `ahead` cycles later, in the `state` (Z1, Z1').
 HELD = np.dtype(
     [("released", "?"), ("cycles", "f8"), ("impacts", "i8"), ("state", "f8", 2), ("ahead", "f8")]
 )
@@ -55,7 +55,7 @@ RULE = np.dtype([("kind", "i8"), ("cycles", "f8"), ("phase", "i8")])
 
 
 class Outcome(NamedTuple):
-    """Results of trials: the `cycles` until the goal, and the cycles with the `damper` on."""
+    """Results of trials. `cycles` are cycles until the goal, `damper` cycles with the damper on."""
 
     reached: np.ndarray
     cycles: np.ndarray
@@ -168,7 +168,7 @@ class Trials(NamedTuple):
         return held
 
     def labels(self, states):
-        """Return the motion to which each state at a strobe leads, and the cycles it takes."""
+        """Return the label of the motion that each state at a strobe leads to, and its cycles."""
         settings = self.settling.tolerance, self.settling.limit, self.workers
         return ensemble.label_states(
             self.releases.p, states, math.pi / 2, self.releases.attractors, *settings

@@ -186,7 +186,7 @@ def _life(p, path, record, tolerance):
 
 
 def release_data(case, motions, entries, settling):
-    """Return the variables of releases. Each row of the arrays belongs to a motion with the damper.
+    """Return a dict of variables on releases. Each row of an array is for a motion with damper.
 
     The first row holds the releases `entries`, from motions that have not settled. The other rows
     hold releases from `motions`, equally spaced over the period of each motion.
@@ -219,7 +219,6 @@ def release_data(case, motions, entries, settling):
 
 
 def _settled_motions(oscillator, damper, frequency, seed, settling, workers, known):
-    """Return the settled motions, those in `known` and those from many starts, smallest first."""
     on = pack(oscillator, damper, frequency)
     # The solutions of (7) for elastic contact are good starts for an inelastic damper too.
     balance = impacting_solutions(oscillator, replace(damper, restitution=1.0), frequency)
@@ -279,7 +278,6 @@ def release_scan(
 
 
 def _scan_records(response):
-    """Return records of the settled motions at one frequency, the smallest motion first."""
     keep = response["outcome"].values == flag("outcome", "settled")
     found = np.zeros(np.sum(keep), MOTION)
     for name in ("period", "maximum_displacement", "contacts", "state"):

@@ -83,7 +83,6 @@ def _quiet(oscillator, damper, frequency, starts, seed, settling):
 
 
 def _spread(correct, points, cell, own_point, orbit):
-    """Follow `orbit` to a cell, and from there to all other cells; return the `Grid`."""
     grid = Grid(points, correct)
     followed = follow_line(correct, own_point, points[cell], orbit)
     grid.orbits[cell] = _reached(followed, "frequencies")
@@ -98,7 +97,6 @@ def _reached(followed, key):
 
 
 def _grids(oscillator, damper, frequency, frequencies, stiffnesses, quiet):
-    """Return grids of orbits with compliant and rigid walls, and the rigid orbit at `frequency`."""
 
     def compliant_at(point, guess):
         each = replace(damper, contact_stiffness=float(np.exp(point[1])))

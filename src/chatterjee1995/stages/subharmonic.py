@@ -80,7 +80,7 @@ def subharmonic_suppression(
 
 
 def _switch_half(oscillator, parameters, free, states, seed):
-    """Put half of the start states on the free subharmonic; return its max |Z1|, or NaN."""
+    """Put half of `states` on the free subharmonic. Return its max |Z1| at each W, or NaN."""
     size = np.full(len(parameters), np.nan)
     half = states.shape[1] // 2
     for i, p in enumerate(parameters):
@@ -95,9 +95,10 @@ def _switch_half(oscillator, parameters, free, states, seed):
 
 
 def switched_on(oscillator, p, state, loose, generator):
-    """Switch the damper on at random times. Return each state when W T is next a multiple of 2 pi.
+    """Switch the damper on at m random times of a free motion, which begins in `state`.
 
-    The last two columns of `loose` (m, 4) give Z2 and Z2'. In every second row Z2' is set to 0.
+    For each of these times return the state when W T next is a multiple of 2 pi. The last two
+    columns of `loose` (m, 4) are Z2 and Z2' at the switching, but Z2' is 0 in every second row.
     """
     period = 2 * np.pi / p[FREQUENCY]
     begin = strobe_map.strobe_time(p)
@@ -132,8 +133,8 @@ def is_subharmonic(data):
 def branch_ends(data, branch, grid, rows):
     """Return the frequencies of both ends of a branch.
 
-    The sweep `data` has located some ends. In place of others, return the lowest or highest
-    frequency of the grid at which the branch was found.
+    The sweep `data` has found the branch at the frequencies `grid[rows]`. If it has not located an
+    end of the branch, the lowest or the highest of these frequencies takes the place of this end.
     """
     ends = grid[[min(rows), max(rows)]]
     for side, (row, step, turn) in enumerate(((min(rows), -1, "down"), (max(rows), 1, "up"))):
@@ -175,7 +176,7 @@ class FreeSubharmonic(NamedTuple):
 def free_subharmonic(
     oscillator, first, last, *, starts=96, radius=None, seed=1995, settling, workers=1
 ) -> FreeSubharmonic:
-    """Return the longest branch of free symmetric motions of period 3."""
+    """Return the branch of free symmetric motions of period 3 that is found at the most W."""
     frequencies = np.linspace(first, last, SEARCHED)
     parameters = np.array([pack(oscillator, None, value) for value in frequencies])
     systems = [(None, value) for value in frequencies]

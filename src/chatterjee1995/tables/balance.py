@@ -1,4 +1,4 @@
-"""Tables of harmonic balance: designs, errors with more harmonics, and maps of its errors."""
+"""Tables of harmonic balance: designs, errors by number of harmonics, and maps of errors."""
 
 import numpy as np
 import pandas as pd
@@ -115,7 +115,7 @@ def _convergence(data):
 
 
 def _needed(highest, error, accuracy):
-    """Return the number of harmonics needed for an error of at most `accuracy`, or NaN."""
+    """Return the highest harmonic needed for an error of at most `accuracy`, or NaN."""
     above = np.flatnonzero(~(error <= accuracy))
     first = above[-1] + 1 if len(above) else 0
     return highest[first] if first < len(highest) else np.nan

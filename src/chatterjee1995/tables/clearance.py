@@ -61,7 +61,6 @@ def design_rules(datasets) -> pd.DataFrame:
 
 
 def _grids(datasets):
-    """Yield a table for each grid of dampers: the optimum clearance, and its value by each rule."""
     for name, data in datasets.get("design_rules", {}).items():
         named = {name: decode(data[name]) for name in ("best_kind", "best_stability")}
         cells = data.assign(named).to_dataframe().reset_index()
@@ -73,7 +72,6 @@ def _grids(datasets):
 
 
 def _sweeps(datasets):
-    """Yield a table for each clearance sweep: the optimum clearance, and its value by each rule."""
     for data in datasets.get("optimum", {}).values():
         parameters = parameters_of(data)
         oscillator, damper = oscillator_of(data), damper_of(data, clearance=1.0)

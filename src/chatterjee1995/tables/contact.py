@@ -43,7 +43,6 @@ def contact_model(datasets) -> pd.DataFrame:
 
 
 def _unloaded(data):
-    """Return columns about a contact in which only the wall accelerates the loose mass."""
     realised = float(data.unloaded_restitution)
     return {
         "restitution e, given": float(data.used),

@@ -62,7 +62,7 @@ def models(datasets) -> pd.DataFrame:
 
 
 def cheapest(data, labels):
-    """Return the index of the run with the required accuracy and fewest operations, or None."""
+    """Of the runs that are accurate enough, return the index of the cheapest, or None."""
     meets = decode(data["meets_accuracy"]).values == "yes"
     meets &= np.isin(data["method"].values, labels)
     work = np.where(meets, data["operations"].values, np.inf)

@@ -14,7 +14,7 @@ KINDS = {number: kind for kind, number in DAMPED_MOTION.items()}
 
 
 def migration(datasets) -> pd.DataFrame:
-    """Return a table: the share of releases that lead to each free motion, and times of runs."""
+    """Return a table: share of releases that lead to a free motion, and cycles of control runs."""
     rows = []
     for name, case in datasets.get("migration", {}).items():
         reached = case.trial_outcome == flag("trial_outcome", "reached")

@@ -23,7 +23,7 @@ import psutil
 gc.set_threshold(10_000)
 
 # A job checks every LOOK seconds that Snakemake is alive, and ends if it is not. A new run of
-# Snakemake takes longer to start its first job, so by then no job of an old run is left.
+# Snakemake starts its first job later than LOOK. By then no job of an old run is left.
 LOOK = 0.5
 
 # Key of a parameter such as {"linspace": [0.6, 2.6, 41]} -> function that makes its value.
@@ -49,7 +49,7 @@ def imported(name):
 
 
 def made(value):
-    """Return a parameter of a job, where values replace dicts such as {"linspace": [0, 1, 5]}."""
+    """Return `value` with dicts such as {"linspace": [0, 1, 5]} replaced by what they describe."""
     if isinstance(value, list):
         return [made(each) for each in value]
     if not isinstance(value, dict):
@@ -98,7 +98,11 @@ class Job:
             shutil.rmtree(steps, ignore_errors=True)
 
     def computed(self, given, offered):
-        """Call the function of the stage with what it accepts of `offered`; return the dataset."""
+        """Call the function of the stage, and return the dataset.
+
+        Its arguments are all parameters in `given`, the contents of the input files, and the values
+        in `offered` that have the name of an argument.
+        """
         function = imported(self.given["function"])
         taken = inspect.signature(function).parameters
         offered = offered | {"workers": self.snakemake.threads}
@@ -173,7 +177,6 @@ def end_with_parent() -> None:
 
 
 def _write_timing(path):
-    """Write seconds, CPU seconds (children included) and peak memory in MB of this process."""
     process = psutil.Process()
     seconds = time.time() - process.create_time()
     cpu = sum(process.cpu_times()[:4])  # user and system time of this process and of its children

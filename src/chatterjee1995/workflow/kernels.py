@@ -21,7 +21,7 @@ def compile_all(processes, orders) -> None:
     from chatterjee1995.workflow.job import end_with_parent
     from impact_damper.command.warm_up import warm_up_orbits, warm_up_settling
 
-    # Collecting garbage would take a fifth of the time. Forked processes inherit the setting.
+    # Garbage collection would take a fifth of the time. Forked processes too do without it.
     gc.disable()
     fork = get_context("fork")
     with ProcessPoolExecutor(processes, fork, initializer=end_with_parent) as pool:

@@ -70,7 +70,7 @@ def one_step(method, p, drives, h, y):
 
 @kernel
 def run_fixed(method, p, start, t, steps, largest):
-    """Run from `start` at the time t. Write max |Z1| of each cycle, or NaN, to `largest`."""
+    """Run from `start` at the time t. Write max |Z1| of each cycle (NaN: diverged) to `largest`."""
     h = 2.0 * math.pi / p[FREQUENCY] / steps
     y = (start[0], start[1], start[2], start[3])
     largest[:] = np.nan
@@ -101,7 +101,7 @@ def fixed_ends(method, p, start, t, step, ends):
 
 
 class FixedStep(Integrator):
-    """A method with equal steps. Its `number` is one of NUMBERS, which `one_step` takes."""
+    """A method with equal steps. Its `number`, one of NUMBERS, selects it in `one_step`."""
 
     fixed = True
 
@@ -130,7 +130,7 @@ class FixedStep(Integrator):
         return np.abs(ends[:, 3]), abs(there[0, 3])
 
 
-# The last argument is the stability limit: largest stable step times natural frequency.
+# The last argument of a `FixedStep` is the largest stable step times natural frequency.
 BOTH = "stable_steps", "missed_contacts"
 INTEGRATORS = (
     FixedStep(VERLET, "verlet", "velocity Verlet", 1, BOTH[:1], 2.0),

@@ -22,7 +22,10 @@ FIRST = 1e-3  # length of the first step, divided by the forcing period or, in `
 
 @kernel
 def estimated_step(p, side, by_position, t, h, y, tolerance):
-    """Return the state after a step, and its estimated error divided by the allowed error."""
+    """Return the state after a step, and its estimated error divided by the allowed error.
+
+    The loose mass presses the wall `side`, or, if `by_position`, the wall beyond which Z2 lies.
+    """
     k1 = rate(p, wall_at(p, y[2]) if by_position else side, t, y)
     m = moved(y, h / 3.0, k1)
     k2 = rate(p, wall_at(p, m[2]) if by_position else side, t + h / 3.0, m)
@@ -42,7 +45,7 @@ def estimated_step(p, side, by_position, t, h, y, tolerance):
 
 @kernel
 def located(p, side, t, h, y, tolerance):
-    """Shorten a step h to end at a wall; return its length, last state and number of trials."""
+    """Shorten a step h so that it ends at a wall. Return length, last state and trials."""
     low, high = 0.5 * h, h
     state, _ = estimated_step(p, side, False, t, high, y, tolerance)
     beyond = ahead(p, side, state[2])

@@ -17,7 +17,7 @@ UNLIMITED = 2**62  # limit of evaluations of the rate, which no run reaches
 
 @kernel
 def derivative(t, y, p, side, left):
-    """Return the derivative of the state. Raise OverflowError if no evaluations are `left`."""
+    """Return the derivative of the state y. Raise OverflowError after `left[0]` evaluations."""
     left[0] -= 1
     if left[0] < 0:
         raise OverflowError("too many evaluations")
@@ -41,7 +41,7 @@ def solved(method, p, y, span, side, tolerance, left, **options):
 
 
 def parts(method, p, start, t, end, tolerance, locate, left):
-    """Yield results of `solve_ivp`: one, or if `locate` one for each flight and each contact."""
+    """Yield one result of `solve_ivp`, or, if `locate`, one for each flight and each contact."""
     y, side = np.array(start), side_of(p, start) if locate else BY_POSITION
     status = 1
     while status == 1:
@@ -57,7 +57,7 @@ def parts(method, p, start, t, end, tolerance, locate, left):
 
 
 class SciPy(Integrator):
-    """An integrator of SciPy. INTEGRATORS explains `operations` and `factorising`."""
+    """An integrator of SciPy. A comment at INTEGRATORS explains `operations`."""
 
     tolerances = "scipy"
     slow = True

@@ -33,7 +33,7 @@ PARTS = 8  # number of parts of a step; `turning_points` finds at most one zero 
 
 @kernel
 def take_steps(steps, p, y, side, t, end, tolerance, flight_order, contact_order, rows):
-    """Integrate y until `end`, or until `rows` is full; return row count, time and wall."""
+    """Integrate y to `end`, or until `rows` is full. Return row count, last time and last wall."""
     work = aligned(steps[3])
     a, count = pointer(work), 0
     write_trajectory(p, y, side, tolerance, a)
@@ -116,7 +116,7 @@ def work_of_steps(counts, orders=ORDERS, tangents=False):
 
 
 def step_work(kind, orders=ORDERS, tangents=False):
-    """Return the operations of a step, within 1 % of what the kernels really do."""
+    """Return the floating-point operations of a step of a kind, within 1 % of the true number."""
     n = orders[kind == CONTACT]
     if kind == CONTACT:
         return 1.5 * n**2 + 40 * n + 405 + tangents * (4.5 * n**2 + 73 * n)
