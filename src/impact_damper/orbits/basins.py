@@ -1,8 +1,9 @@
 """Basins of attraction in a plane of states, and the robustness of attractors against shocks.
 
-Without a damper the boundaries of basins are stable manifolds of unstable orbits: curves of states
-from which motions tend to the orbit. They are computed backwards in time, because errors then
-decrease. `reach` holds the largest |Z1| and |Z1'| of points computed, `window` of points stored.
+Without a damper the boundaries of basins are curves of states: the stable manifolds of unstable
+orbits. From a state on the stable manifold of an orbit the motion tends to this orbit. The curves
+are computed backwards in time, because errors then decrease. Two arrays limit |Z1| and |Z1'|:
+states of a curve are computed within the limits in `reach`, and stored within those in `window`.
 The names *convergence time*, *finite-time basin stability* and *minimal critical shock* come from
 Attractors.jl, version 2 (StabilityQuantifiersAccumulator).
 """
@@ -35,9 +36,9 @@ from impact_damper.motions.start_states import free_motions
 from impact_damper.motions.strobe_map import STROBE
 from impact_damper.orbits.shooting import find_orbit
 
-# Default half width of the plane, divided by the largest |Z1| or |Z1'| of motions without a damper.
+# By default the plane of states reaches to WIDTH x the largest |Z1| and |Z1'| of free motions.
 WIDTH = 1.5
-# The search for unstable orbits begins at each state of a grid of NEWTON x NEWTON states.
+# Newton's method searches for unstable orbits from each state of a grid of NEWTON x NEWTON states.
 NEWTON = 16
 # At most 2 x TRIED states that reach no known attractor are used to search for further attractors.
 TRIED = 64
@@ -47,12 +48,12 @@ CELLS_RANGE = {"least": 2, "most": 10**4}
 
 
 class Labelled(NamedTuple):
-    """Labels of the n states of a plane. Each is run m times: with m states of the loose mass.
+    """Labels of the n states (Z1, Z1') of a plane. Each state is run with m states (Z2, Z2').
 
-    labels: Index of the attractor, or a negative flag if there is none, shape (m, n).
+    labels: Index of the attractor to which a run leads, a negative flag if to none, shape (m, n).
     periods: Number of forcing cycles after which the label is known, shape (m, n).
     records: Record of each attractor (`records.MOTION`).
-    label: Function that takes states, shape (k, 4), and returns their labels and periods.
+    label: Function that takes k states, shape (k, 4), and returns their labels and periods.
     """
 
     labels: np.ndarray
@@ -100,10 +101,10 @@ def basins(
     loose : sequence of float, optional
         Z2 and Z2' of all states, only with a damper. By default each state is run five times, with
         the loose mass at relative rest at five places in the gap. The result then also holds, for
-        each state, the share of places that lead to each attractor.
+        each state, the share of these places from which the motion leads to each attractor.
     shock : float, optional
         Impulse on the primary mass: in N s for a machine, otherwise a dimensionless jump of Z1'. If
-        a shock is given, the result includes the time in which motions return to their attractor.
+        a shock is given, the result includes the time in which motions return to an attractor.
     within : int
         Time limit of the finite-time basin stability, in forcing cycles.
     settling : Settling, optional
@@ -120,13 +121,15 @@ def basins(
         For each attractor: the period, the largest displacement, Z1 and Z1' at `phase`, and
 
         - the share of states that lead to the attractor, and their median convergence time;
-        - with `shock`: longest convergence time after +shock or -shock, infinite without return;
-        - the finite-time basin stability: the share of states that reach it in `within` cycles;
+        - with `shock`: the longest convergence time after +shock or -shock, infinite if a motion
+          does not return to the attractor;
+        - the finite-time basin stability: the share of states from which motions reach the
+          attractor in `within` cycles;
         - the minimal critical shock: the smallest impulse at `phase` after which the motion does
           not return. Impulses up to a jump of Z1' by the largest speed in the plane are tried.
 
-        Without a damper also: unstable orbits of the attractors' periods, and their stable
-        manifolds, which are the boundaries of basins.
+        Without a damper also: unstable orbits with the period of an attractor, and the stable
+        manifolds of these orbits, which are the boundaries of basins.
 
     Raises
     ------
@@ -217,8 +220,8 @@ def _free(p, plane, window, reach, phase, cells, settling, running):
 
 
 def boundary_data(p, attractors, window, reach, phase, cells, settling):
-    """Return the dataset variables for unstable orbits and for the boundaries of basins."""
-    # Unstable orbits lie closer together near the origin, so the grid is finer there.
+    """Return the dataset variables that describe unstable orbits and boundaries of basins."""
+    # Unstable orbits lie closer together near the origin, so the grid of guesses is finer there.
     even = np.linspace(-1, 1, NEWTON)
     grid = [half * even * np.abs(even) for half in reach / 2]
     states = np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2)
@@ -283,14 +286,15 @@ def _attractor_data(p, found, phase):
     }
 
 
-# The computed part of a manifold begins at this distance from its saddle (an unstable orbit).
+# Distance from a saddle (an unstable orbit) to the first computed state of its stable manifold.
 NEAR = 1e-5
-# A manifold is computed on each side of its saddle, backwards over at most MOST_PERIODS forcing
-# cycles, until MOST_POINTS points lie in `window` or MOST_IN_ALL in `reach`. In each cycle new
-# points are inserted, at most MOST_HALVINGS times, between points that are too far apart.
+# A stable manifold is computed on each side of its saddle, cycle by cycle backwards in time. This
+# ends after MOST_PERIODS forcing cycles, or with more than MOST_POINTS states in `window` or
+# MOST_IN_ALL in `reach`. In each cycle, new states are inserted at most MOST_HALVINGS times between
+# neighbouring states that are too far apart.
 MOST_PERIODS, MOST_POINTS, MOST_IN_ALL, MOST_HALVINGS = 60, 40_000, 100_000, 12
 FIRST_POINTS = 33
-# Largest distance between neighbouring points of a manifold outside `window`, divided by `reach`.
+# Largest distance between neighbouring states of a manifold outside `window`, divided by `reach`.
 OUTSIDE = 0.01
 # Two orbits are the same if their states differ by less than SAME.
 SAME = 1e-6
@@ -299,7 +303,7 @@ CHUNK = 4096
 
 
 def saddles(p, states, periods, phase):
-    """Return the saddles (unstable orbits) that Newton's method finds from given states."""
+    """Return the saddles (unstable orbits) of all `periods` that Newton's method finds."""
     orbits, known = [], np.empty((0, 2))
     for n in sorted(set(periods)):
         for state in states:
@@ -315,10 +319,7 @@ def saddles(p, states, periods, phase):
 
 
 def run_backwards(p, states, phase, tolerance, reach):
-    """Return the states one forcing cycle before `states`; NaN for `states` outside `reach`.
-
-    If time runs backwards, the velocity and the damping change their signs in the equation.
-    """
+    """Return the states one forcing cycle before `states`; NaN for states beyond limits `reach`."""
     reverse = p.copy()
     reverse[DAMPING] = -p[DAMPING]
     begin, period = -phase / p[FREQUENCY], 2 * math.pi / p[FREQUENCY]
@@ -336,11 +337,11 @@ def run_backwards(p, states, phase, tolerance, reach):
 
 
 def stable_manifold(orbit, tolerance, window, spacing, reach):
-    """Return the stable manifold of a saddle as a list of curves, and whether it is complete."""
+    """Return the curves of a saddle's stable manifold, and whether all extend to `reach`."""
     values, vectors = np.linalg.eig(orbit.monodromy[:2, :2])
     k = int(np.argmin(np.abs(values)))
     direction = vectors[:, k].real / np.linalg.norm(vectors[:, k].real)
-    # With a negative multiplier, motions change the side of the saddle in each period.
+    # If the multiplier is negative, a motion changes its side of the saddle in each period.
     growth = 1 / abs(values[k].real) ** (1 if values[k].real > 0 else 2)
     given = growth, tolerance, window, spacing, reach
     sides = [_grow(orbit, side * direction, *given) for side in (-1, 1)]
@@ -348,8 +349,6 @@ def stable_manifold(orbit, tolerance, window, spacing, reach):
 
 
 def _grow(orbit, direction, growth, tolerance, window, spacing, reach):
-    """Return curves of the manifold on one side of the saddle, and whether they are complete."""
-
     def earlier(states):
         return run_backwards(orbit.p, states, orbit.phase, tolerance, reach)
 
@@ -380,7 +379,7 @@ def _grow(orbit, direction, growth, tolerance, window, spacing, reach):
 
 
 def _wide(states, window, spacing, reach):
-    """Return for each pair of neighbours in a list of states whether they are too far apart."""
+    """Return a mask: whether each of `states` is too far from the next one in `states`."""
     apart = np.abs(np.diff(states, axis=0))
     inside = np.all(np.abs(states) <= window + 2 * spacing, axis=1)
     near = np.all(np.abs(states) <= reach, axis=1)
@@ -390,13 +389,13 @@ def _wide(states, window, spacing, reach):
     return np.where(lost, inside, near & np.any(apart > allowed, axis=1))
 
 
-# The minimal critical shock is searched for in four rounds. Round k divides a range of shocks into
-# SHOCKS[k] parts. The next range is the first part at whose end a motion does not return.
+# The minimal critical shock is found in four rounds. Round k divides a range of shocks into
+# SHOCKS[k] parts. The next range is the first part after whose largest shock a motion is lost.
 SHOCKS = (256, 64, 64, 64)
 
 
 def robustness(p, found, phase, widest, shock, within) -> dict:
-    """Return the dataset variables that say which shocks (jumps of Z1') attractors withstand."""
+    """Return the dataset variables for convergence times and shocks (jumps of Z1')."""
     rows = []
     for index, record in enumerate(found.records):
         own, states, returned = found.labels == index, orbit_states(p, record, phase), np.nan
@@ -412,7 +411,10 @@ def robustness(p, found, phase, widest, shock, within) -> dict:
 
 
 def _after(found, index, states, shocks):
-    """Return for each shock whether a motion leaves the attractor, and the longest run (cycles)."""
+    """Return for each shock whether it drives any motion off its attractor, and the longest return.
+
+    The motions begin at all `states` of the attractor. The longest return is in forcing cycles.
+    """
     pushed = np.repeat(states, len(shocks), axis=0)
     pushed[:, 1::2] += np.tile(shocks, len(states))[:, None]
     labels, periods = (each.reshape(len(states), -1) for each in found.label(pushed))
@@ -420,7 +422,7 @@ def _after(found, index, states, shocks):
 
 
 def _critical(found, index, states, most):
-    """Return the size of the first shock from 0 to `most` after which a motion leaves, or inf."""
+    """Return the least |shock| from 0 to `most` that drives a motion off its attractor, or inf."""
     low, high = 0.0, most
     for parts in SHOCKS:
         shocks = np.linspace(low, high, parts + 1)

@@ -9,9 +9,9 @@ from scipy.optimize import brentq
 from impact_damper.model.packed import FREQUENCY
 from impact_damper.orbits.continuation import Point, point_at_distance
 
-# The place of a bifurcation is found to within FINE times the length of the step, or better.
+# The place of a bifurcation on a step is found to within FINE times the length of the step.
 FINE = 1e-3
-# The place of a change of contact is found to within PLACE times max(1, length of the step).
+# The place at which contacts change is found to within PLACE times max(1, length of the step).
 PLACE = 1e-12
 # A multiplier counts as complex if its imaginary part exceeds COMPLEX in modulus.
 COMPLEX = 1e-6
@@ -19,17 +19,18 @@ COMPLEX = 1e-6
 NEAR_CIRCLE = 1e-3
 # Two contacts with one wall merge if the flight between them is shorter than MERGED forcing cycles.
 MERGED = 1e-3
-# Largest number of changes of contact that are located on one step.
+# At most this number of changes in the order of contacts are located on one step.
 MOST_CHANGES = 8
 # Index arrays that select all pairs of multipliers, for 2 and for 4 multipliers.
 PAIRS = {count: np.triu_indices(count, 1) for count in (2, 4)}
 
 
 class Event(NamedTuple):
-    """A bifurcation or a change of contacts. The point lies at the event or beside it.
+    """A bifurcation of a branch, or a change in the order of contacts along a branch.
 
-    kind: A key of TESTS, or "grazing" (a contact appears or vanishes in flight), or "merging" (two
-    contacts with one wall become one, or the reverse).
+    kind: "fold", "symmetry_breaking", "period_doubling", "neimark_sacker", "grazing" (a contact
+    appears or vanishes in flight) or "merging" (two contacts with one wall become one, or reverse).
+    point: The point of the branch at the event, or close beside the event.
     before, after: Order of contacts (`Orbit.sequence`) before and after the event.
     """
 
@@ -42,8 +43,9 @@ class Event(NamedTuple):
 def _reversal(point, symmetric):
     """Return a number that is zero where one of `Orbit.cycle_multipliers` is -1.
 
-    There a symmetric orbit loses its symmetry, and any other orbit doubles its period. `symmetric`
-    says which of the two kinds of orbits is tested. For an orbit of the other kind return 1.
+    There a symmetric orbit loses its symmetry, and any other orbit doubles its period. Only one
+    kind of orbits is tested: symmetric orbits if `symmetric` is True, orbits that are not symmetric
+    if it is False. For an orbit that is not tested return 1.
     """
     orbit = point.orbit
     return _product(orbit.cycle_multipliers + 1) if (orbit.sign < 0) == symmetric else 1.0
@@ -57,12 +59,11 @@ def _pairs(point):
 
 
 def _product(values):
-    """Return the real part of a product of `values`, each scaled down to modulus 1 if larger."""
     return float((values / np.maximum(1, np.abs(values))).prod().real)
 
 
-# For each kind of bifurcation: a function of a point that is zero at the bifurcation, and the
-# tolerance of the place. A larger tolerance is enough at a fold, where the parameter is stationary.
+# For each kind of bifurcation: a function of a point of a branch, which is zero at the bifurcation,
+# and the error allowed in the distance along the branch at which the bifurcation lies.
 TESTS = {
     "fold": (lambda point: point.tangent[-1], 1e-7),
     "symmetry_breaking": (partial(_reversal, symmetric=True), 1e-11),
@@ -72,10 +73,11 @@ TESTS = {
 
 
 def bifurcations_between(point_at, start, end, first, last):
-    """Return (place, event) for each bifurcation between two points, and how many were missed.
+    """Return (place, `Event`) for each bifurcation between two points of a branch.
 
-    A place is a distance along the branch or, near a grazing, |Z2| - d0 in an extremum of Z2. The
-    points `start` and `end` lie at the places `first` and `last`. `point_at` finds other points.
+    Also return the number of bifurcations that were not located. `start` and `end` are the points
+    at the places `first` and `last`. `point_at(place)` finds points between them. A place is a
+    distance along the branch or, near a grazing, the value of |Z2| - d0 in an extremum of Z2.
     """
     located, lost = [], 0
     for kind, (test, precision) in TESTS.items():
@@ -93,7 +95,7 @@ def bifurcations_between(point_at, start, end, first, last):
             place = brentq(value, first, last, xtol=tolerance)
             point = known[place]
             if not point.orbit.stable and abs(point.orbit.multipliers[0]) < 1 + NEAR_CIRCLE:
-                # If an orbit beside the bifurcation is stable, store this orbit.
+                # If an orbit close beside the bifurcation is stable, store the point of this orbit.
                 sides = (place - 2 * tolerance, place + 2 * tolerance)
                 beside = [point_at(side) for side in sides if (side - first) * (side - last) < 0]
                 point = next((each for each in beside if each.orbit.stable), point)
@@ -107,7 +109,7 @@ def bifurcations_between(point_at, start, end, first, last):
 
 
 def events_between(start, end, length):
-    """Return a list of the events on a step, and the number of events that were not located."""
+    """Return the events on the step from `start` to `end`, and how many were not located."""
 
     known = {0.0: start, length: end}
 
@@ -139,7 +141,7 @@ def _is_complex_pair(multipliers):
 
 
 def _changes_of_contact(point_at, start, end, length):
-    """Find changes of the order of contacts by bisection. Return a list of (place, event)."""
+    """Return (place, `Event`) for each change in the order of contacts from `start` to `end`."""
     located, inner, before = [], 0.0, start.orbit.sequence
     while before != end.orbit.sequence and len(located) < MOST_CHANGES:
         outer, after = length, end.orbit
@@ -152,7 +154,7 @@ def _changes_of_contact(point_at, start, end, length):
                 inner = middle
             else:
                 outer, after = middle, orbit
-        # Of the two orbits beside the event, store the one with more contacts.
+        # Of the two points beside the event, store the one whose orbit has more contacts.
         sides = point_at(inner), point_at(outer)
         point = max(sides, key=lambda side: len(side.orbit.sequence))
         kind = _contact_event(point.orbit)

@@ -11,23 +11,23 @@ from impact_damper.orbits.bifurcations import Event, bifurcations_between, event
 from impact_damper.orbits.grazing import through_grazing
 from impact_damper.orbits.segments import NUDGE
 
-# Largest number of orbits on each side of the first orbit of a branch.
+# A branch is followed over at most this number of orbits in each direction from its first orbit.
 MOST_POINTS = 10_000
 # Two orbits are the same if their states at W T = pi/2 differ by less than SAME.
 SAME = 1e-5
-# `Branch.holds` looks for an orbit only on steps of a branch with a similar max |Z1|. The values of
-# the orbit and of the step's beginning may differ by NEARBY plus the change along the step.
+# `Branch.holds(orbit)` searches a step of the branch only if max |Z1| of `orbit` and max |Z1| where
+# the step begins differ by at most NEARBY plus the change of max |Z1| along the step.
 NEARBY = 0.02
-# `family` is extrapolated to values of the parameter that are at most this far outside its range.
+# `Branch.family` is extrapolated to parameters at most this far outside the range of the branch.
 EXTENDED = 1e-3
-# A branch ends with `contact_lost` if all contacts of its last orbit begin at speeds below WEAK.
+# A branch ends as "contact_lost" if each contact of its last orbit begins with |Z2'| below WEAK.
 WEAK = 0.02
-# A branch meets a branch of symmetric orbits, or of half the period, at a fold at which
-# `Orbit.deviation` vanishes: it is below VANISHED times its value at the point before the fold.
+# A branch meets a more symmetric branch at a fold if max |`Orbit.deviation`| at the fold is below
+# VANISHED times its value at the point before the fold.
 VANISHED = 0.5
 # A grazing is searched for if the sequence of contacts changes on a step, or if a step shorter than
-# CLOSE_STEP fails. The search goes as far as REACH times the length of the step. If no grazing is
-# found, a step longer than CLOSE_STEP on which the sequence changes is halved.
+# CLOSE_STEP fails. The search reaches as far as REACH times the length of the step. If it finds no
+# grazing and the sequence of contacts changes, a step longer than CLOSE_STEP is halved.
 CLOSE_STEP, REACH = 2e-3, 8.0
 # A step longer than CLEAR_STEP is halved if it may contain two folds, or if an event on the step
 # was not located.
@@ -36,15 +36,15 @@ CLEAR_STEP = 1e-4
 
 @dataclass(frozen=True)
 class Branch:
-    """A branch of orbits. `family(value)` is the array `p` of all parameters at a point.
+    """A branch of orbits. `family(value)` is the array `p` of all parameters for a point's `value`.
 
     `events` holds pairs: the index of a point, and the event there. `lost` is the number of events
     that were not located. `ends` says why the branch ends at its first and at its last point:
 
     range_ends: The parameter is at the end of its range. closed: The branch is a closed curve.
-    symmetry_breaking: It meets a branch of symmetric orbits. period_doubling: It meets a branch of
-    half the period. contact_lost: All contacts are weak (see WEAK). lost: Newton's method fails.
-    point_limit: There are MOST_POINTS points. unstable: Too many unstable orbits in a row.
+    symmetry_breaking: The branch meets a branch of symmetric orbits. period_doubling: The branch
+    meets a branch of half the period. contact_lost: All contacts begin at low speed. lost: Newton's
+    method fails. point_limit: There are MOST_POINTS points. unstable: Too many unstable orbits.
     """
 
     family: Callable[[float], np.ndarray]
@@ -64,7 +64,7 @@ class Branch:
         return np.array([point.orbit.record["maximum_displacement"] for point in self.points])
 
     def holds(self, orbit, value) -> bool:
-        """Return whether the branch contains an orbit, whose parameter is `value`."""
+        """Return whether the branch contains `orbit`, where `value` is the orbit's parameter."""
         if orbit.periods != self.points[0].orbit.periods:
             return False
         away = self.values - value
@@ -81,7 +81,7 @@ class Branch:
 
 
 def between(point, ahead, value):
-    """Return the point between `point` and `ahead` at which the parameter is `value`, or None."""
+    """Return the point from `point` to `ahead` with the parameter `value`, or None if not found."""
     if np.array_equal(point.problem.phases, ahead.problem.phases):
         return continuation.point_at_value(point, ahead, value)
     return point.problem.at_value(point, value)
@@ -90,7 +90,8 @@ def between(point, ahead, value):
 def follow_branch(family, orbit, value, span, beyond=np.inf) -> Branch:
     """Follow the branch of an orbit to smaller and to larger parameters, within `span`.
 
-    Each direction ends at the latest when more than `beyond` orbits in a row are unstable.
+    `value` is the orbit's parameter. `family(value)` returns the array `p` of all parameters. The
+    branch ends in each direction at the latest after more than `beyond` unstable orbits in a row.
     """
     family = _extended(family, span)
     problem = continuation.Problem.of(family, orbit)
@@ -178,10 +179,11 @@ def _walk(problem, first, span, beyond) -> Branch:
 
 
 def _next_pieces(point, span, length, search):
-    """Return the pieces of the next step, or an empty list if the step must be shorter.
+    """Make a step of about `length` from `point`. Return three results.
 
-    For pieces see `_through_grazing`. Also return the factor by which to change the length of the
-    step, and whether a grazing was searched for. If `search` is False, none is searched for.
+    1. A list of pieces (see `_through_grazing`), or [] if a shorter step must be tried.
+    2. The factor by which to multiply `length` for the next step.
+    3. Whether a grazing was searched for. This is done only if `search` is True.
     """
     ahead, factor = continuation.next_point(point, span, length)
     changes = ahead is not None and ahead.orbit.sequence != point.orbit.sequence
@@ -199,7 +201,7 @@ def _next_pieces(point, span, length, search):
         return [], 0.5, search
     along = (point.problem.metric * (ahead.x - point.x)) @ point.tangent
     located, missed = events_between(point, ahead, along)
-    # A branch that ends at a branch of symmetric orbits, or of half the period, has a fold there.
+    # A branch that ends at a more symmetric branch has a fold there.
     crosses = point.orbit.deviation @ ahead.orbit.deviation < 0
     unseen = crosses and not any(event.kind == "fold" for event in located)
     if length > CLEAR_STEP and (missed or unseen):
@@ -208,10 +210,13 @@ def _next_pieces(point, span, length, search):
 
 
 def _ending(piece, first, span):
-    """Return why a branch ends between two points ("" if not), and the events before this end.
+    """Find out whether a branch ends on a piece (see `_through_grazing`). Return three results.
 
-    Also return whether the event at this end could not be located. `first` is the first point of
-    the branch, or None if the branch has too few points to be closed.
+    1. The kind of the end, as in `Branch.ends`, or "" if the branch does not end on this piece.
+    2. The events on the piece. If the branch ends on it, only the events up to the end.
+    3. Whether the event at which the branch ends was not located.
+
+    `first` is the branch's first point, or None if the branch has too few points to be closed.
     """
     start, ahead, located, missed = piece
     met = None
@@ -230,9 +235,10 @@ def _ending(piece, first, span):
 
 
 def _through_grazing(point, reach):
-    """Return the pieces of a branch through a grazing, [] if there is no grazing within `reach`.
+    """Return a branch through its next grazing as a list of pieces.
 
-    A piece is a tuple: a point, the next point, the events between them, and how many were missed.
+    A piece is a tuple: a point, the next point, the events between these two points, and the number
+    of events that were not located. Return [] if there is no grazing within `reach` from `point`.
     """
     passage = through_grazing(point, reach)
     if passage is None:
@@ -252,8 +258,8 @@ def _through_grazing(point, reach):
 def _meeting(events, orbit):
     """Return the index of the event at which a branch meets a more symmetric branch, or None.
 
-    The event is a fold at which `Orbit.deviation` vanishes. If `events` has folds, but no such
-    fold, return None. If `events` has no fold, the event was not located: return len(events).
+    The event is a fold at which `Orbit.deviation` is much smaller than for `orbit`. Return None if
+    `events` has other folds only. Return len(events) if it has no fold: then none was located.
     """
     folds = [k for k, event in enumerate(events) if event.kind == "fold"]
     least = VANISHED * np.max(np.abs(orbit.deviation))
@@ -264,7 +270,7 @@ def _meeting(events, orbit):
 
 
 def _passes(point, ahead, first):
-    """Return the point between two points at which the branch returns to `first`, or None."""
+    """Return the point between `point` and `ahead` with the orbit of the point `first`, or None."""
     forward = (ahead.value - point.value) * first.tangent[-1] > 0
     if not forward or (point.value - first.value) * (ahead.value - first.value) > 0:
         return None

@@ -70,8 +70,8 @@ def clearance_sweep(
         smallest quiet orbit (the optimum); whether this minimum is smooth, a kink, or an end of the
         branch or of the sweep; the optimum by (7); the clearances by rules (18) and (19), NaN for
         (19) without a resonance peak; rm W^2 d0/f at the optimum, with f = F + U W^2, and by the
-        theory of straight flight. For each `edge`, lower and upper: the clearance up to which
-        max |Z1| of the quiet orbit exceeds its minimum by at most 10 %.
+        theory of straight flight. For each `edge`, lower and upper: the end of the range of
+        clearances in which max |Z1| of the quiet orbit exceeds its minimum by at most 10 %.
 
     Raises
     ------
@@ -152,10 +152,11 @@ def _peak_rule(oscillator, mass_ratio):
 
 
 def _quiet_motions(data, clearances, rule):
-    """Return the state and max |Z1| of the quiet orbit at each clearance, and an index or None.
+    """Return for each clearance the state and max |Z1| of the quiet orbit. Also return an index.
 
-    The index is that of the clearance closest to `rule` at which a quiet orbit was found. Quiet
-    orbits on other branches than this one are left out. Where none is left, max |Z1| is NaN.
+    Of all clearances with a quiet orbit, the index selects the one closest to `rule`. It is None if
+    there is no quiet orbit. Quiet orbits on other branches than the quiet orbit at this clearance
+    are ignored. At a clearance without a quiet orbit max |Z1| is NaN.
     """
     names = "outcome period contacts asymmetry maximum_displacement branch state"
     table = {name: data[name][1] for name in names.split()}
@@ -171,9 +172,9 @@ def _quiet_motions(data, clearances, rule):
 
 
 def _stable_part(p, state, span):
-    """Return clearances and max |Z1| of the stable orbits on the branch of an orbit.
+    """Return clearances and max |Z1| of the stable part of a branch, which begins near `state`.
 
-    Also return a function that computes max |Z1| for any clearance between them.
+    `p` belongs to `state`. Also return a function that computes max |Z1| at a clearance in between.
     """
 
     def family(clearance):
@@ -198,13 +199,17 @@ def _stable_part(p, state, span):
 
 # The range of clearances near the optimum ends where max |Z1| is NEAR_MINIMUM times its minimum.
 NEAR_MINIMUM = 1.1
-# The place of a smooth minimum of max |Z1| is improved: it is where a central difference of
-# max |Z1| with the step DIFFERENCE x clearance is zero. It may move by up to WIDE x clearance.
+# A smooth minimum of max |Z1| is moved to the clearance at which a central difference of max |Z1|
+# is zero. The step of this difference is DIFFERENCE x clearance. The clearance changes by at most
+# WIDE x clearance.
 DIFFERENCE, WIDE = 3e-5, 1e-4
 
 
 def minimum_table(values, sizes, size_at, span):
-    """Return the dataset variables that describe the smallest max |Z1| of stable quiet orbits."""
+    """Return the dataset variables that describe the smallest max |Z1| of stable quiet orbits.
+
+    `values` and `sizes` are clearances and max |Z1|. `size_at` computes max |Z1| for a clearance.
+    """
     if not len(values):
         return {
             "optimum_clearance": np.nan,
@@ -235,7 +240,6 @@ def minimum_table(values, sizes, size_at, span):
 
 
 def _stationary(size_at, best):
-    """Return the clearance near `best` at which max |Z1| is stationary, `best` if none is found."""
     step, reach = DIFFERENCE * best, WIDE * best
 
     def slope(clearance):
@@ -247,17 +251,14 @@ def _stationary(size_at, best):
 
 
 def _kind(size_at, best, least, longest):
-    """Return "smooth" or "kink", the kind of the minimum of max |Z1| at the clearance `best`.
-
-    At half the distance the rise is a quarter as large for a smooth minimum, half for a kink.
-    """
+    """Return "smooth" if max |Z1| rises with the squared distance from `best`, otherwise "kink"."""
     steps = longest, longest / 2
     rises = [size_at(best + step) + size_at(best - step) - 2 * least for step in steps]
     return "kink" if rises[1] > 0.36 * rises[0] else "smooth"
 
 
 def _near(values, sizes, size_at, best, least):
-    """Return the clearance at which max |Z1| is NEAR_MINIMUM x `least`, or the last in `values`."""
+    """Return the last clearance from `best` on with max |Z1| up to NEAR_MINIMUM x `least`."""
     level = NEAR_MINIMUM * least
     inside = best
     for value, size in zip(values, sizes, strict=True):

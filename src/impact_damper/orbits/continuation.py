@@ -19,14 +19,16 @@ from impact_damper.orbits.shooting import AMPLIFYING
 
 # Newton's method fails after NEWTON corrections, or if an unknown must change by LARGEST or more.
 NEWTON, LARGEST = 10, 0.5
-# Newton's method has converged if the residual is a rounding error and one of these is true:
+# A correction is the largest change of an unknown. Newton's method has converged if the residual is
+# as small as a rounding error and one of these is true:
 # - The correction before the last one is below SURE.
 # - The derivative by the parameter is up to date, and the last correction is below CLOSE.
-# - This derivative is up to date, and a correction below ROUNDING exceeds half of the one before.
-# The method fails if a correction above SURE exceeds SHRINKING times the one before.
+# - This derivative is up to date, and the last correction is below ROUNDING, but more than half of
+#   the correction before it.
+# The method fails if a correction exceeds both SURE and SHRINKING times the correction before it.
 CLOSE, ROUNDING, SURE, SHRINKING = 1e-10, 1e-4, 1e-6, 0.7
-# The derivative by the parameter is expensive. Therefore it is updated only if the last correction
-# is below REFINED and all corrections since the last update add up to more than UNMOVED.
+# The derivative of `Orbit.defects` by the parameter is expensive. It is updated only if Newton's
+# last correction is below REFINED and the corrections since the last update exceed UNMOVED in sum.
 REFINED, UNMOVED = 1e-4, 5e-6
 # A linear system is nearly singular if its solution is more than SINGULAR^-0.5 times as large as
 # its right side. Then singular values below SINGULAR times the largest one count as zero.
@@ -36,16 +38,15 @@ FIRST_STEP, SHORTEST_STEP = 0.01, 1e-9
 # A step is at most LONGEST times as long as the vector of unknowns, or LONGEST_UNSTABLE times if
 # orbits are neither symmetric nor stable. The length of this vector counts as at least SMALLEST.
 LONGEST, LONGEST_UNSTABLE, SMALLEST = 0.02, 0.06, 0.05
-# The first guess in `Problem.at_value` is at most this far from the given point. A farther guess
-# near a fold could be a state so large that its integration takes minutes.
+# The first guess in `Problem.at_value` is at most this far from the given point.
 FARTHEST_GUESS = 0.08
-# A point farther from its first guess than about ASIDE times the length of the step is rejected,
-# because it may lie on another branch. The first correction may be FAILING times this distance.
+# A point is rejected if its distance from its first guess exceeds about ASIDE x length of the step.
+# Newton's first correction may be at most FAILING times as long as this largest distance.
 ASIDE, FAILING = 0.2, 2.0
 
 
 class Point(NamedTuple):
-    """A point of a branch: the parameter's `value`, and the orbit there.
+    """A point of a branch: the `value` of the parameter that varies, and the orbit there.
 
     The m n + 1 unknowns `x` are the states at which the m segments begin, and the parameter. A
     state has n = 4 unknown components, or without a damper n = 2 (Z1, Z1'). `tangent`, `bend` and
@@ -68,10 +69,11 @@ class Problem:
     In the metric, the squared distance of two points is the squared difference of their parameters
     plus the squared distance of their states, averaged over the segments.
 
-    `family(value)` is the array `p` of all parameters at a point. `loose` is (Z2 - Z1, Z2' - Z1'),
-    which is constant without a damper. If `symmetric`, all orbits are symmetric, and the segments
-    cover half the period. `rough` is the largest norm of a matrix in `Orbit.factors` when `recut`
-    last divided the orbit into several segments, otherwise 0.
+    `family(value)` is the array `p` of all parameters for `Point.value`. The segments begin and the
+    last one ends at `phases`. If `symmetric`, all orbits are symmetric, and the segments cover half
+    the period. `damped`: there is a damper. `loose` is (Z2 - Z1, Z2' - Z1'), constant without a
+    damper. `rough` is the largest norm of a matrix in `Orbit.factors` when `recut` last divided the
+    orbit into several segments. It is 0 for one segment and before `recut` is first called.
     """
 
     family: Callable[[float], np.ndarray]
@@ -84,7 +86,7 @@ class Problem:
 
     @classmethod
     def of(cls, family, orbit, *, symmetric=None):
-        """Return the `Problem` of an orbit. By default a symmetric orbit has `symmetric` True."""
+        """Return the `Problem` of an orbit. Without `symmetric` test whether it is symmetric."""
         if symmetric is None:
             symmetric = bool(orbit.record["asymmetry"] < SYMMETRIC)
         cycle = orbit.periods * TURN * (0.5 if symmetric else 1.0)
@@ -134,14 +136,14 @@ class Problem:
         return np.concatenate([x[:2], x[:2] + self.loose])[None]
 
     def shoot(self, x):
-        """Integrate the segments of the unknowns x to an `Orbit`, which need not be periodic."""
+        """Integrate all segments from the states in x to an `Orbit`, which need not be periodic."""
         states = self.states(x)
         return integrate(self.family(x[-1]), self.periods, self.phases, states, self.sign)
 
     def rate(self, value):
         """Return the derivative of the array `p` by the parameter that varies, at its `value`."""
         ahead, behind = self.family(value + NUDGE), self.family(value - NUDGE)
-        # Without a damper the clearance is infinite. Its derivative is set to 0.
+        # Without a damper the clearance is infinite. Its rate of change is set to 0.
         change = np.subtract(ahead, behind, out=np.zeros(len(ahead)), where=ahead < np.inf)
         return change / (2 * NUDGE)
 
@@ -162,7 +164,7 @@ class Problem:
     def correct(self, x, border, most=np.inf):
         """Return the point that Newton's method reaches from the unknowns x, or None if it fails.
 
-        Corrections are orthogonal to `border`. A first correction longer than `most` is a failure.
+        Corrections are orthogonal to `border`. The first correction must not be longer than `most`.
         """
         x, size, moved, row = x.copy(), np.inf, 0.0, self.metric * border
         rate, slopes = None, None
@@ -191,7 +193,6 @@ class Problem:
         return None
 
     def _solved(self, orbit, slopes, row):
-        """Return two columns: a correction orthogonal to `row`, and a tangent of the branch."""
         matrix, right = np.vstack([self._matrix(orbit, slopes), row]), np.zeros((len(row), 2))
         right[:-1, 0], right[-1, 1] = -orbit.defects[:, : self.size].ravel(), 1.0
         most = np.array([orbit.residual, 1.0]) / SINGULAR**0.5
@@ -202,13 +203,13 @@ class Problem:
         return np.linalg.lstsq(matrix, right, SINGULAR)[0]
 
     def near(self, x, border, length):
-        """Return the point that Newton's method finds from x, None if it is too far (see ASIDE)."""
+        """Return the point that `correct` finds from x, or None if it is too far from x."""
         aside = ASIDE * abs(length) + min(ROUNDING, abs(length))
         point = self.correct(x, border, FAILING * aside)
         return None if point is None or self.length(point.x - x) > aside else point
 
     def at_value(self, point, value):
-        """Return the point near `point` at which the parameter is `value`, or None."""
+        """Return the point near `point` with the parameter `value`, or None if Newton fails."""
         length = (value - point.x[-1]) / (point.tangent[-1] or np.inf)
         x = point.x + np.clip(length, -FARTHEST_GUESS, FARTHEST_GUESS) * point.tangent
         x[-1] = value
@@ -220,7 +221,10 @@ class Problem:
 
 
 def point_at_distance(origin, point, ahead, distance):
-    """Return the point between two points, at a distance along the tangent of `origin`, or None."""
+    """Return the point between `point` and `ahead` at a `distance` from `origin`, or None.
+
+    The distance is measured along the tangent of `origin`. None: Newton's method fails.
+    """
     row = origin.problem.metric * origin.tangent
     first, last = (row @ (end.x - origin.x) for end in (point, ahead))
     x = _cubic(point, ahead, (distance - first) / (last - first))
@@ -229,13 +233,13 @@ def point_at_distance(origin, point, ahead, distance):
 
 
 def point_at_value(point, ahead, value):
-    """Return the point between `point` and `ahead` at which the parameter is `value`, or None."""
+    """Return the point from `point` to `ahead` with the parameter `value`, or None if not found."""
     problem, chord = point.problem, ahead.x - point.x
 
     def beyond(fraction):
         return _cubic(point, ahead, fraction)[-1] - value
 
-    # By a rounding error, `value` may lie just outside the values of the two points.
+    # By a rounding error, `value` may lie just outside the range from `point` to `ahead`.
     ends = beyond(0.0), beyond(1.0)
     inside = ends[0] * ends[1] < 0
     fraction = brentq(beyond, 0.0, 1.0) if inside else float(np.argmin(np.abs(ends)))
@@ -249,9 +253,9 @@ def point_at_value(point, ahead, value):
 
 
 def _cubic(point, ahead, fraction):
-    """Return the unknowns at a place on the cubic curve that touches the branch at two points.
+    """Return the unknowns at a place on the cubic curve that touches a branch at two points.
 
-    `fraction` is the place: 0 at `point`, 1 at `ahead`, and between 0 and 1 between the two.
+    The place is given by `fraction`, which rises from 0 at `point` to 1 at `ahead`.
     """
     row = point.problem.metric * point.tangent
     chord = ahead.x - point.x
@@ -266,15 +270,16 @@ def _cubic(point, ahead, fraction):
 # the tangents at the step's ends, radian. SKEW: length of the difference of two unit vectors, one
 # from end to end of the step, the other along the mean of the two tangents.
 TURNED, SKEW = 0.5, 0.03
-# A step should reach AIM x TURNED or AIM^2 x SKEW, whichever comes first. Its length is at most
+# A step is planned to be as long as AIM x TURNED and AIM^2 x SKEW allow. Its length is at most
 # GROWTH times, and after a rejected step at least SHRINKAGE times, the length of the step before.
 AIM, GROWTH, SHRINKAGE = 0.65, 1.5, 0.3
 
 
 def next_point(point, span, length):
-    """Make a step along a branch. Return the new point, or None if the step must be shorter.
+    """Make a step of `length` from `point`. Return the new point, or None if it is rejected.
 
-    Also return the factor by which to multiply the length for the next step.
+    Also return the factor by which to multiply `length` for the next step. `span` is the range of
+    the parameter; a step beyond its end is shortened to it.
     """
     problem = point.problem
     bent = length**2 / 2 * point.bend + length**3 / 6 * point.twist
@@ -305,11 +310,11 @@ def with_bend(point, ahead):
 
 
 def folds_twice(point, ahead):
-    """Return whether the cubic curve between two points of a branch has two folds."""
+    """Return whether a cubic curve that touches the branch at both points has two folds between."""
     length = point.problem.length(ahead.x - point.x)
     first, last = length * point.tangent[-1], length * ahead.tangent[-1]
     chord = ahead.value - point.value
-    # Along the step, 0 < u < 1, the derivative of the parameter is first + middle u + bend u^2.
+    # For 0 < u < 1 on the step, d(parameter)/du is first + middle u + bend u^2.
     bend, middle = 3 * (first + last) - 6 * chord, 6 * chord - 4 * first - 2 * last
     if first * last <= 0 or not 0 < -middle * bend < 2 * bend**2:
         return False
@@ -324,7 +329,7 @@ NEAR_SECTION, ROUGHER, MILD = 0.02, 4.0, 0.5
 
 
 def holds_still(point):
-    """Return whether the segments of a point's orbit can be kept (see NEAR_SECTION)."""
+    """Return whether the orbit of `point` need not be divided into new segments."""
     problem, orbit = point.problem, point.orbit
     if not problem.damped:
         return True
@@ -336,7 +341,10 @@ def holds_still(point):
 
 
 def recut(point, between=()):
-    """Return a point with its orbit in new segments, or `point` itself if Newton's method fails."""
+    """Return `point` with its orbit divided into new segments, or unchanged if Newton fails.
+
+    A flight that contains one of the phases in `between` is cut before and after this phase.
+    """
     before, orbit = point.problem, point.orbit
     phases, rough = segments.cut(orbit, before.cycle, between), 1.0
     if not between and orbit.amplification <= AMPLIFYING:

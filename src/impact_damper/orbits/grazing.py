@@ -1,7 +1,8 @@
 """Follow a branch through a grazing, at which an extremum of Z2 reaches a wall.
 
-The value |Z2| - d0 in this extremum is its height. Because the branch turns sharply, its points are
-computed at chosen heights. `direction` is 1 if heights rise along the branch, -1 if they fall.
+The height of an extremum is the value of |Z2| - d0 there. Near a grazing a branch turns sharply, so
+points of the branch are computed at chosen heights of the extremum. In all functions `direction` is
+1 if the heights rise along the branch, and -1 if they fall.
 """
 
 from typing import NamedTuple
@@ -14,15 +15,16 @@ from impact_damper.orbits import segments
 from impact_damper.orbits.continuation import NEWTON, Point, recut
 from impact_damper.orbits.segments import list_turns, slopes_of_ends
 
-# On the side of a grazing where orbits have more contacts, points are computed at which the
-# extremum is LEAST, LEAST x RATIO, LEAST x RATIO^2, ... up to MOST away from the wall.
+# Before and after a grazing, the orbits of a branch differ by one contact, symmetric orbits by two.
+# Among orbits with more contacts, points are computed for extrema with the distances LEAST,
+# LEAST x RATIO, LEAST x RATIO^2, ... up to MOST from the wall.
 RATIO, LEAST, MOST = 10.0, 1e-13, 2e-5
-# If a step from one height to the next fails, a height between them is tried first: at most
-# HALVINGS times in each grazing, and at most HALVINGS_BETWEEN times in a row in `Passage.between`.
+# If a step from one height to the next fails, a height between the two is tried first. This is done
+# at most HALVINGS times in each grazing, and HALVINGS_BETWEEN times in a row in `Passage.between`.
 HALVINGS, HALVINGS_BETWEEN = 8, 3
 # A step led to a more symmetric branch if max |`Orbit.deviation`| fell to FALLEN x its old value.
 FALLEN = 0.01
-# On the side where orbits have fewer contacts, the extremum has these distances from the wall.
+# Among orbits with fewer contacts, the extrema have these distances from the wall.
 BESIDE = 1e-9, 2e-5
 # Newton's method fails if it must change an unknown by LARGEST or more. It has converged only if
 # the error of the height is below CLOSE x |height| + ROUNDING.
@@ -32,7 +34,8 @@ LARGEST, CLOSE, ROUNDING = 0.5, 1e-4, 1e-14
 def at_height(problem, x, turn, height, direction):
     """Find the point near the unknowns x at which the extremum `turn` of Z2 has `height`.
 
-    Return the point and the extremum there, or None if Newton's method fails.
+    Return the point and the extremum there, or None if Newton's method fails. Along the tangent of
+    the point, heights rise if `direction` is 1, and fall if it is -1.
     """
     x = x.copy()
     for _ in range(NEWTON):
@@ -58,10 +61,11 @@ def at_height(problem, x, turn, height, direction):
 
 
 class Passage(NamedTuple):
-    """Points of a branch through a grazing, and at each point the extremum that grazes.
+    """Points of a branch through a grazing.
 
-    `grazing` is the index of the point closest to the grazing, where orbits have more contacts.
-    `kind` is "grazing" or "merging", as in `bifurcations.Event`.
+    `heights` and `turns` hold for each point the height |Z2| - d0 of the extremum that grazes, and
+    this extremum. Of the points with more contacts, `grazing` is the index of the one closest to
+    the grazing. `kind` is "grazing" or "merging", as in `bifurcations.Event`.
     """
 
     points: list
@@ -71,7 +75,7 @@ class Passage(NamedTuple):
     kind: str
 
     def between(self, k):
-        """Return a function that finds the point at a given height, between points k and k + 1."""
+        """Return a function of a height. It finds the point with this height after point k."""
         known = [(self.heights[end], self.points[end], self.turns[end]) for end in (k, k + 1)]
         direction = np.sign(self.heights[k + 1] - self.heights[k])
 
@@ -91,12 +95,12 @@ class Passage(NamedTuple):
 
 
 def guess(point, turn, height):
-    """Return a point's unknowns, moved along the tangent until an extremum has about `height`."""
+    """Return a point's unknowns, moved along its tangent until `turn` has about this `height`."""
     return point.x + (height - turn.height) / (turn.gradient @ point.tangent) * point.tangent
 
 
 def through_grazing(point, reach):
-    """Return points of a branch through its next grazing, or None if none is within `reach`."""
+    """Return the `Passage` from `point` through the next grazing, None if it is beyond `reach`."""
     turn = next_grazing(point, reach)
     if turn is None:
         return None
@@ -121,7 +125,7 @@ def through_grazing(point, reach):
 
 
 def _along(point, turn, targets, direction, contacts):
-    """Compute points at the heights `targets` until one fails. Return points, heights, extrema."""
+    """Compute points at the heights `targets`, until one fails. Return points, heights, extrema."""
     points, heights, turns = [point], [turn.height], [turn]
     pending, halvings = targets[::-1], 0
     while pending and halvings <= HALVINGS:
@@ -144,17 +148,13 @@ def _along(point, turn, targets, direction, contacts):
 
 
 def _before(height, target):
-    """Return a height between two heights, at which to divide a failed step."""
     if height * target > 0:
         return height * (target / height) ** 0.5
     return height / 2 if abs(height) > abs(target) else target / RATIO
 
 
 def _targets(height, sharp, direction):
-    """Return the heights of an extremum at which points of the branch are computed.
-
-    Orbits have more contacts where the height has the sign `sharp`.
-    """
+    """Return heights at which to compute points. Those of sign `sharp` belong to more contacts."""
     fine = LEAST * RATIO ** np.arange(1 + int(np.log(MOST / LEAST) / np.log(RATIO)))
     if direction == sharp:
         return list(sharp * fine)
@@ -185,7 +185,7 @@ class Turn(NamedTuple):
 
 
 def turns_of(orbit):
-    """Return a list of all extrema of Z2 on an orbit. Their gradients are not computed."""
+    """Return all extrema of Z2 on an orbit as a list of `Turn`, without gradients."""
     count = room = TURNS * len(orbit.states)
     while count >= room:
         room = count + 1
@@ -195,11 +195,7 @@ def turns_of(orbit):
 
 
 def with_gradient(problem, x, orbit, turn):
-    """Return an extremum of Z2 with its gradient. `x` holds the unknowns of the orbit.
-
-    The gradient is the derivative of |Z2| - d0 at a fixed phase. A small change of the extremum's
-    phase has no effect, because Z2' = 0 there.
-    """
+    """Return `turn`, an extremum of Z2, with its gradient by the unknowns `x` of the orbit."""
     k, rate = turn.segment, problem.rate(x[-1])
     phases, begin = np.array([orbit.phases[k], turn.phase]), orbit.states[k]
     end, tangents, slopes = begin.copy(), np.eye(4), np.empty((1, 4))
@@ -212,7 +208,7 @@ def with_gradient(problem, x, orbit, turn):
 
 
 def nearest(turns, turn):
-    """Return the extremum in `turns` that is closest to `turn` in phase, None if none is near."""
+    """Return the extremum in `turns` closest in phase to `turn`, or None if all are too far."""
     near = [each for each in turns if each.segment == turn.segment]
     near = [each for each in near if abs(each.phase - turn.phase) < MOVED]
     near = [each for each in near if each.outer == turn.outer] or near
@@ -220,7 +216,7 @@ def nearest(turns, turn):
 
 
 def next_grazing(point, reach):
-    """Return the extremum of Z2 that reaches a wall first along a point's tangent, or None."""
+    """Return the extremum of Z2 that grazes first along the tangent of `point`, within `reach`."""
     problem, candidates = point.problem, []
     ahead = turns_of(problem.shoot(point.x + SHIFT * point.tangent))
     for turn in turns_of(point.orbit):

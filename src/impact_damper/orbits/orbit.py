@@ -22,8 +22,9 @@ from impact_damper.orbits.segments import flow_all
 
 # Increase of the phase W T in one forcing cycle, radian.
 TURN = 2 * math.pi
-# An orbit has converged if its residual, divided by max(1, largest component of a state), is below
-# RESIDUAL, or with contacts below STIFF_RESIDUAL times the natural frequency of a contact.
+# An orbit has converged if its residual is below a bound x max(1, largest component of a state).
+# The bound is RESIDUAL. For an orbit with contacts it is at least STIFF_RESIDUAL times the natural
+# frequency of a contact.
 RESIDUAL, STIFF_RESIDUAL = 1e-12, 7e-15
 # The phase at which an orbit begins should be at least this far from a contact, radian.
 MARGIN = 0.15
@@ -81,7 +82,7 @@ class Orbit:
 
     @cached_property
     def residual(self):
-        """Largest difference between the end of a segment and the beginning of the next one."""
+        """Largest modulus of a component of `defects`."""
         return float(np.abs(self.defects).max())
 
     @property
@@ -155,7 +156,7 @@ class Orbit:
         """Contacts, largest |Z1|, and complex first harmonics of Z1 and Z2, in all segments."""
         states, phases = self.states.copy(), self.phases
         if side_of(self.p, states[0]) != 0:
-            # The first state lies in a contact. A survey of twice `cycle` includes its beginning.
+            # The first state lies in a contact. Two cycles include the beginning of this contact.
             phases = self.phases[0] + np.array([0.0, 2 * self.cycle])
         times = phases / self.p[FREQUENCY]
         room, sums = 2 * CONTACTS * (self.periods + len(states)), np.empty((2, 2))
@@ -170,7 +171,7 @@ class Orbit:
 
     @cached_property
     def contacts(self):
-        """Array with a row for each contact: wall (-1 or 1), begin, end, Z2' at begin and end."""
+        """Array with a row for each contact: wall (-1 or 1), times of its two ends, Z2' at both."""
         log = self._surveyed[0]
         if self.sign > 0:
             return log
@@ -179,7 +180,7 @@ class Orbit:
 
     @cached_property
     def sequence(self):
-        """Walls in the order of contacts, such as "+-", whichever contact in the orbit is first."""
+        """Walls in the order of contacts, such as "+-". The contact listed first may be any."""
         walls = "".join("+" if wall > 0 else "-" for wall in self.contacts[:, 0])
         return min((walls[k:] + walls[:k] for k in range(len(walls))), default="")
 
@@ -190,12 +191,12 @@ class Orbit:
 
     @property
     def restitution(self):
-        """Smallest ratio of |Z2'| after a contact to |Z2'| before it, NaN without contacts."""
+        """Smallest of the ratios |Z2'| after / |Z2'| before a contact, NaN without contacts."""
         before, after = np.abs(self.contacts[:, 3]), np.abs(self.contacts[:, 4])
         return np.min(after / before, initial=np.inf) if self.touching else np.nan
 
     def at(self, phase):
-        """Return the state at a phase W T (radian), which must not be before the first phase."""
+        """Return the state at a phase W T, radian, equal to or greater than the first phase."""
         # A single segment is integrated beyond its end. If there are several, they are repeated.
         turns = int((phase - self.phases[0]) // self.cycle) if len(self.states) > 1 else 0
         local = phase - turns * self.cycle
@@ -206,10 +207,10 @@ class Orbit:
 
     @cached_property
     def deviation(self):
-        """Deviation from a symmetric orbit or, if `periods` is even, an orbit of half the period.
+        """Deviation from symmetry or, if `periods` is even, from an orbit of half the period.
 
-        It is the sum (for even `periods` the difference) of the first state and the state half a
-        period later, shape (4,). It changes its sign where a branch meets a branch of such orbits.
+        It is the first state plus the state half a period later, or for even `periods` the first
+        state minus the state half a period later, shape (4,). If `sign` is -1, all four are 1.
         """
         if self.sign < 0:
             return np.ones(4)
@@ -236,7 +237,7 @@ class Orbit:
         return record
 
     def is_same(self, other, tolerance=1e-6):
-        """Return whether `other` is this orbit or its mirror image, perhaps some cycles later."""
+        """Return whether `other` is this orbit or its mirror image, perhaps shifted by cycles."""
         if other.periods != self.periods:
             return False
         first = self.phase + (STROBE - self.phase) % TURN + TURN / 2
@@ -250,7 +251,7 @@ class Orbit:
         return any(shift[k] < tolerance for k in range(1, self.periods) if self.periods % k == 0)
 
     def margin(self, phases):
-        """Return each phase's distance from the nearest contact, radian; -1 during a contact."""
+        """Return the distance from each phase to the nearest contact, radian; -1 in a contact."""
         begins, ends = (self.p[FREQUENCY] * self.contacts[:, k] for k in (1, 2))
         cycle, phases = self.periods * TURN, np.asarray(phases)[..., None]
         ahead, behind = (begins - phases) % cycle, (phases - ends) % cycle
@@ -259,7 +260,7 @@ class Orbit:
         return np.min(distances, axis=-1, initial=np.inf)
 
     def flight_phase(self):
-        """Return the first phase or, if a contact is near it, the middle of the longest flight."""
+        """Return the first phase or, if near a contact, the phase amid the longest flight."""
         if not self.touching or self.margin(self.phase) > MARGIN:
             return self.phase
         ends = self.p[FREQUENCY] * self.contacts[:, 2]
@@ -270,7 +271,7 @@ class Orbit:
 
 
 def integrate(p, periods, phases, states, sign=1) -> Orbit:
-    """Integrate segments from their first `states` to an `Orbit`, which need not be periodic."""
+    """Integrate segments from their first `states`. The `Orbit` returned need not be periodic."""
     ends, tangents = np.array(states, float), np.tile(np.eye(4), (len(states), 1, 1))
     phases = np.asarray(phases, float)
     touching = flow_all(p, ends, tangents, phases / p[FREQUENCY], POLISH_TOLERANCE)

@@ -21,8 +21,7 @@ from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.shooting import find_orbit
 from impact_damper.orbits.switching import follow_others, met_by
 
-# A branch of period n > 1 ends after more than BEYOND / n unstable orbits in a row. Stable parts
-# that it has beyond this end are narrower than 0.01 in W.
+# A branch of period n > 1 ends after more than BEYOND / n unstable orbits in a row.
 BEYOND = 300
 
 
@@ -101,12 +100,12 @@ def orbit_branches(
     With a frequency and a state, the function follows the branch of the orbit near the state. With
     `motions`, it follows over the frequency every branch through a settled motion, and in addition
 
-    - branches that leave a branch of period 1 or 3: at each loss of symmetry, and at a period
-      doubling if orbits of this branch beside the doubling are stable;
-    - branches that leave a branch of another period at such a point, if orbits of this branch
-      beside the point are stable, and if the new branch has a period up to 9 and begins stable;
-    - the branch of symmetric orbits, or of half the period, at which a branch of a period up to 4
-      ends.
+    - on a branch of period 1 or 3: the new branch that begins at a loss of symmetry, and the new
+      branch that begins at a period doubling with a stable orbit beside it;
+    - on a branch of another period: the new branch that begins at such a point with a stable orbit
+      beside it, if the new branch has a period up to 9 and begins with stable orbits;
+    - where a branch of a period up to 4 ends at a branch of symmetric orbits or of half the period:
+      this second branch.
 
     With `motions`, a branch of period n > 1 ends after more than 300/n unstable orbits in a row.
 
@@ -138,16 +137,17 @@ def orbit_branches(
         how reliable the orbit is. For each `event`: its kind, which is fold, symmetry breaking (a
         loss of symmetry), period doubling, Neimark-Sacker point, grazing (a contact appears or
         vanishes in flight) or merging (two contacts with one wall become one, or the reverse). For
-        each (branch, edge): the reason why the branch ends. With `motions`: `seeds`, the number of
-        settled motions (with a damper only motions with contacts), and `seeds_lost`, the number of
-        seeds near which no orbit of equal period was found. Mirror images count as one branch.
+        each (branch, edge): the reason why the branch ends at this edge (its first or last point).
+        With `motions`: `seeds`, the number of settled motions (with a damper only motions with
+        contacts), and `seeds_lost`, the number of seeds near which no orbit of the seed's period
+        was found. A branch and its mirror image count as one branch.
 
     Raises
     ------
     TypeError, ValueError
         If an argument is of another type or out of range.
     ArithmeticError
-        If Newton's method finds no orbit, or an orbit of a shorter period, a divisor of `period`.
+        If Newton's method finds no orbit, or only an orbit whose period is a divisor of `period`.
 
     Examples
     --------
@@ -237,8 +237,8 @@ def _seeds(motions, damper):
             yield int(motion["period"]), frequency, size, motion["state"].values
 
 
-# An orbit is near a grazing if a contact begins with |Z2'| below SLOW. Its multipliers then hold
-# only for very small disturbances.
+# An orbit is near a grazing if a contact begins with |Z2'| below SLOW. The multipliers of such an
+# orbit hold only for very small disturbances.
 SLOW = 0.01
 
 
@@ -278,7 +278,7 @@ def orbit_variables(pairs):
 
 
 def branches_dataset(branches, back, parameters, title, model=None, more=None):
-    """Return a dataset of branches. The function `back` turns `Point.value` into the parameter."""
+    """Return a dataset of branches. `back(Point.value)` is the parameter stored in the dataset."""
     points = [(back(point.value), point.orbit) for branch in branches for point in branch.points]
     sizes = [len(branch.points) for branch in branches]
     events = [(number, *pair) for number, branch in enumerate(branches) for pair in branch.events]

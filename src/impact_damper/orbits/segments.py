@@ -27,8 +27,9 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 
 # Orthogonal iteration separates two multipliers only if the ratio of their moduli exceeds APART.
 APART = 30.0
-# Orthogonal iteration ends after SWEEPS passes over the matrices, or if a pass changes the basis by
-# less than SETTLED. It separates two multipliers only if this last change is below COUPLED.
+# Orthogonal iteration ends after SWEEPS passes over all segments, or if a pass changes the basis by
+# less than SETTLED. It separates two multipliers only if the last pass changed the basis by less
+# than COUPLED.
 SWEEPS, SETTLED, COUPLED = 14, 1e-15, 1e-8
 # If possible, a small disturbance grows by less than this factor along a segment.
 AMPLIFIED = 30.0
@@ -37,16 +38,13 @@ CLEAR = 0.05
 
 
 def run(p, state, tangents, begin, end):
-    """Integrate a state and its tangents in place, from the phase `begin` to the phase `end`."""
+    """Integrate from the phase `begin` to the phase `end`. Overwrite `state` and `tangents`."""
     times = begin / p[FREQUENCY], end / p[FREQUENCY]
     advance(p, state, tangents, side_of(p, state), *times, POLISH_TOLERANCE, workspace())
 
 
 def cyclic(factors):
-    """Return the matrix of Newton's method for an orbit of m segments, shape (m n, m n).
-
-    It is the derivative of the gaps between segments (`Orbit.defects`) by all first states.
-    """
+    """Return d(`Orbit.defects`)/d(first states), shape (m n, m n), for `factors` of m segments."""
     m, n = factors.shape[:2]
     matrix, k = np.zeros((m, n, m, n)), np.arange(m)
     matrix[k, :, k] = factors
@@ -55,11 +53,7 @@ def cyclic(factors):
 
 
 def multipliers(factors):
-    """Return the eigenvalues of a product of matrices `factors`, without forming the product.
-
-    Orthogonal iteration makes the product block triangular. Each diagonal block has eigenvalues of
-    similar moduli, such as a complex pair.
-    """
+    """Return the eigenvalues of the product of the matrices `factors`, by orthogonal iteration."""
     m, n = factors.shape[:2]
     if m == 1:
         return np.linalg.eigvals(factors[0]).astype(complex)
@@ -85,8 +79,7 @@ def multipliers(factors):
 def sweep(factors, basis, triangles):
     """Compute the QR decompositions A_k Q_(k-1) = Q_k R_k of the matrices A_k in `factors`.
 
-    `triangles` receives the R_k. `basis` is Q_0 at first and the last Q_k at the end. Each column
-    is made orthogonal to those before twice, because rounding errors remain after the first time.
+    `triangles` receives the matrices R_k. `basis` is Q_0 at first and the last Q_k at the end.
     """
     m, n = factors.shape[:2]
     moved = np.empty((n, n))
@@ -117,9 +110,10 @@ def sweep(factors, basis, triangles):
 def cut(orbit, cycle, between=()):
     """Return the phases at which an orbit is cut into segments, shape (m + 1,).
 
-    An orbit without contacts is one segment. Otherwise the cuts lie in the middle of flights. If
-    possible, small disturbances grow by less than the factor AMPLIFIED from one cut to the next.
-    A flight with a phase that is in `between` is cut on both sides of this phase, if there is room.
+    From the first to the last of these phases, W T increases by `cycle`. An orbit without contacts
+    is one segment. Otherwise the cuts lie in the middle of flights. If possible, small disturbances
+    grow by less than the factor AMPLIFIED from one cut to the next. A flight that contains one of
+    the phases in `between` is cut before and after this phase, if there is room.
     """
     if not orbit.touching:
         return np.array([orbit.phase, orbit.phase + cycle])
@@ -137,7 +131,6 @@ def cut(orbit, cycle, between=()):
 
 
 def _sections(orbit, cycle, between):
-    """Return the phases at which an orbit may be cut, and those at which it must be cut."""
     log, first = orbit.contacts, orbit.phase
     begins, ends = (orbit.p[FREQUENCY] * log[:, k] for k in (1, 2))
     following = np.append(begins[1:], begins[0] + orbit.periods * 2 * np.pi)
@@ -162,15 +155,15 @@ def _sections(orbit, cycle, between):
 
 
 # Central differences change the parameter by NUDGE. If the second difference exceeds BENT times the
-# first difference, a contact appears or vanishes. Then the parameter is changed by FINE_NUDGE.
+# first difference, a contact appears or vanishes within NUDGE. Then FINE_NUDGE replaces NUDGE.
 NUDGE, FINE_NUDGE, BENT = 2e-7, 1e-9, 1e-3
 
 
 @kernel
 def list_turns(p, states, phases, tolerance, turns):
-    """Write the extrema of Z2 in all segments to the n rows of `turns`. Return their number.
+    """Write the extrema of Z2 in all segments to the rows of `turns`. Return the number of extrema.
 
-    Extrema after the first n are counted, but not written. The columns of `turns` are: the index
+    Extrema that find no row are counted, but not written. The columns of `turns` are: the index
     of the segment, the phase W T, 1 at a maximum of |Z2| or 0 at a minimum, and |Z2| - d0.
     """
     work, start = workspace(), np.empty(4)
@@ -203,7 +196,7 @@ def list_turns(p, states, phases, tolerance, turns):
 
 @kernel
 def flow_all(p, states, tangents, times, tolerance):
-    """Integrate the states and tangents of all segments in place. Return the time in contact."""
+    """Integrate all segments, overwriting `states` and `tangents`. Return the time in contact."""
     work, touching = workspace(), 0.0
     for k in range(len(states)):
         side = side_of(p, states[k])

@@ -8,9 +8,10 @@ from impact_damper.motions.strobe_map import STROBE
 from impact_damper.orbits import segments
 from impact_damper.orbits.orbit import TURN, Orbit, integrate
 
-# Newton's method stops after ITERATIONS corrections, or if a component must change by FAR or more.
+# Newton's method stops after ITERATIONS corrections, or if a component of a state must change by
+# FAR or more.
 ITERATIONS, FAR = 20, 10.0
-# An approximate orbit with a residual below NEAR may be integrated to begin at another phase.
+# The first phase of an approximate orbit is changed only if the orbit's residual is below NEAR.
 NEAR = 1e-6
 # Multiple shooting is used if a small disturbance can grow by more than this factor on an orbit.
 AMPLIFYING = 100.0
@@ -20,9 +21,9 @@ CUTS, ROUGH = 4, 4.0
 
 
 def shoot(p, state, periods, phase, *, symmetric=False) -> Orbit:
-    """Integrate a state over `periods` forcing cycles, as an `Orbit` of a single segment.
+    """Integrate a state over `periods` forcing cycles. Return an `Orbit` with a single segment.
 
-    The orbit need not be periodic. If `symmetric`, `periods` is odd, and half of it is integrated.
+    It need not be periodic. If `symmetric`, only half of `periods`, an odd number, is integrated.
     """
     cycle = periods * TURN * (0.5 if symmetric else 1.0)
     return integrate(p, periods, (phase, phase + cycle), [state], -1 if symmetric else 1)
@@ -39,8 +40,8 @@ def find_orbit(p, state, periods=1, phase=STROBE) -> Orbit:
         chain = polish(orbit if orbit.residual < NEAR else shoot(p, state, periods, phase))
         if chain.residual < orbit.residual:
             return replace(chain, maps=orbit.maps + chain.maps)
-    # If the first phase lies in a contact, rounding errors grow and the orbit cannot converge. An
-    # orbit with a residual below NEAR is computed again from a first phase in a flight.
+    # If the first phase lies in a contact, rounding errors grow and the orbit cannot converge. If
+    # its residual is below NEAR, the orbit is computed again from a first phase in a flight.
     if not orbit.residual < NEAR or orbit.flight_phase() == orbit.phase:
         return orbit
     phase = orbit.flight_phase()
@@ -51,8 +52,8 @@ def find_orbit(p, state, periods=1, phase=STROBE) -> Orbit:
 def newton(orbit, reach=None) -> Orbit:
     """Return the orbit with the smallest residual that Newton's method finds from `orbit`.
 
-    If `reach` is given, the method stops at the first converged orbit, or before a correction that
-    would lead a state away from its first value by `reach` or more.
+    If `reach` is given, the method stops at the first converged orbit. It also stops before a state
+    would differ from its value in `orbit` by `reach` or more.
     """
     states, best, maps = orbit.states, orbit, 1
     for _ in range(ITERATIONS):
@@ -78,7 +79,7 @@ def newton(orbit, reach=None) -> Orbit:
 
 
 def polish(orbit) -> Orbit:
-    """Return the orbit that Newton's method with several segments finds near an approximate one."""
+    """Divide an approximate orbit into segments, and return the orbit found by Newton's method."""
     maps = orbit.maps
     for _ in range(CUTS):
         phases = segments.cut(orbit, orbit.cycle)

@@ -1,4 +1,4 @@
-"""Switch to the branches that leave where an orbit loses its symmetry or doubles its period.
+"""Find the branches that begin where an orbit loses its symmetry or doubles its period.
 
 At such a point one of `Orbit.cycle_multipliers` is -1. The new branch begins in the direction of
 the eigenvector of this multiplier. Newton's corrections are orthogonal to this direction, so that
@@ -16,13 +16,13 @@ from impact_damper.orbits.continuation import Point, Problem
 from impact_damper.orbits.grazing import at_height, through_grazing, turns_of, with_gradient
 from impact_damper.orbits.shooting import shoot
 
-# A point of the new branch is sought at each of DISTANCES from the bifurcation. It is accepted if
-# it is at most ASIDE times this distance away from its first guess.
+# A first guess for a point of the new branch lies at each of DISTANCES from the bifurcation. The
+# point found must be at most ASIDE times this distance away from the first guess.
 DISTANCES, ASIDE = (2e-2, 4e-3, 8e-4, 1e-4, 1e-5), 0.5
 # If no point is found, a grazing may be near. Then points are sought at which |Z2| - d0 in an
 # extremum of Z2 is 1 + s times its value at the bifurcation, for each s in SHARES. First guesses
-# lie within REACH of the bifurcation. A point found may be nearer or farther than its first guess
-# by the fraction MISSED. At most PASSAGES points are followed through the grazing.
+# lie within REACH of the bifurcation. A point's distance from the bifurcation may differ from the
+# first guess by the fraction MISSED. At most PASSAGES points are followed through the grazing.
 SHARES, MISSED, REACH, PASSAGES = (0.5, 0.2, 0.1, 0.05, 0.02), 0.5, 1e-3, 2
 # Kinds of events at which another branch begins.
 LEAVING = ("symmetry_breaking", "period_doubling")
@@ -31,7 +31,10 @@ MEETING = 1e-3
 
 
 def other_branch(event, *, stable=False) -> Point | None:
-    """Return a point (stable if `stable`) of the branch that begins at an event, or None."""
+    """Return a point of the branch that begins at `event`, or None if no point is found.
+
+    If `stable`, only a point with a stable orbit is returned.
+    """
     leaving = _leaving(event)
     doubled = event.kind == "period_doubling"
 
@@ -52,11 +55,11 @@ def other_branch(event, *, stable=False) -> Point | None:
 
 
 def _leaving(event):
-    """Return the `Problem` of the branch that begins at an event, and its first x and direction."""
+    """Return the `Problem`, first unknowns x and direction of the branch that begins at `event`."""
     point, problem = event.point, event.point.problem
     doubled = event.kind == "period_doubling"
-    # The state one `problem.cycle` later is `sign` times the state. In the new direction a small
-    # deviation is then multiplied by -`sign`.
+    # One `problem.cycle` later the state is multiplied by `sign`, and a small deviation from it
+    # in the direction of the new branch is multiplied by -`sign`.
     sign, size = (1 if doubled else -1), 4 if problem.damped else 2
     factors = point.orbit.factors[:, :size, :size].copy()
     factors[-1] *= -1
@@ -82,7 +85,6 @@ def _at_distance(leaving, distance):
 
 
 def _at_heights(leaving):
-    """Yield points of the new branch, each with another height |Z2| - d0 of one extremum of Z2."""
     problem, x, direction = leaving
     # Search only the first half of the segments. The second half has the same extrema.
     half = (len(problem.phases) - 1) // 2 if problem.damped else 0
@@ -112,15 +114,14 @@ def _at_heights(leaving):
 # period, this second branch is followed too.
 WHOLE, STABLE, MET = (1, 3), 9, 4
 # The end of a branch and an event of another branch are the same point if they differ by less than
-# SAME_VALUE in the parameter and by less than SAME_SIZE in max |Z1|. The end is a fold, whose place
-# is known only to within 1e-7.
+# SAME_VALUE in the parameter and by less than SAME_SIZE in max |Z1|.
 SAME_VALUE, SAME_SIZE = 1e-6, 1e-4
 # Two bifurcations are the same if their parameters differ by less than NEAR.
 NEAR = 1e-9
 
 
 def follow_others(branches, follow):
-    """Follow branches that begin at events and ends of `branches`, and append them to the list."""
+    """Append to `branches` the branches that begin at their events or ends. Use `follow`."""
     for branch in branches:
         for edge in (0, -1):
             point = _more_symmetric(branches, branch, edge)
@@ -133,7 +134,7 @@ def follow_others(branches, follow):
 
 
 def _more_symmetric(branches, branch, edge):
-    """Return the point at which a branch ends at a new, more symmetric branch, or None."""
+    """Return a point of the branch at which `branch` ends, or None if that branch is known."""
     kind, point = branch.ends[edge], branch.points[edge]
     orbit, symmetric = point.orbit, kind == "symmetry_breaking"
     if kind not in LEAVING or orbit.periods > MET:
@@ -149,10 +150,10 @@ def _more_symmetric(branches, branch, edge):
 
 
 def _new_branch(branches, branch, place, event):
-    """Return a point of the branch that begins at an event, or None if it is not to be followed.
+    """Return a point of the branch that begins at `event`, or None if it is not to be followed.
 
-    A branch that is known already is not followed. At a period doubling, and at each event of a
-    branch with a period not in WHOLE, an orbit of `branch` beside the event must be stable.
+    It is not followed if it is known already. At a period doubling, and at any event of a `branch`
+    with a period not in WHOLE, an orbit of `branch` beside the event must be stable.
     """
     ends = {0: branch.ends[0], len(branch.points) - 1: branch.ends[1]}
     if event.kind not in LEAVING or ends.get(place) == event.kind:
@@ -173,7 +174,7 @@ def _new_branch(branches, branch, place, event):
 
 
 def ends_at(branches, number, edge, event):
-    """Return whether an end of the branch `number` is the event of a more symmetric branch."""
+    """Return whether the end `edge` of branches[number] is `event` of a more symmetric branch."""
     branch = branches[number]
     if branch.ends[edge] != event.kind or event.kind not in LEAVING:
         return False
@@ -187,9 +188,9 @@ def ends_at(branches, number, edge, event):
 
 
 def met_by(branches, number, edge):
-    """Return the index of the branch at which the branch `number` begins or ends, or -1.
+    """Return the index of the more symmetric branch at which branches[number] ends, or -1.
 
-    `edge` is 0 for the first point of the branch `number`, and 1 for its last point.
+    `edge` is 0 for the end at the first point of branches[number], 1 for the end at the last point.
     """
     for other, candidate in enumerate(branches):
         if other == number:
@@ -200,7 +201,7 @@ def met_by(branches, number, edge):
 
 
 def _passes(branch, kind, point):
-    """Return whether a branch contains a point, or has an event of `kind` at its parameter."""
+    """Return whether `branch` contains `point`, or has an event of `kind` at `point.value`."""
     periods = point.orbit.periods
     there = [each.point for _, each in branch.events if each.kind == kind]
     near = any(abs(each.value - point.value) < NEAR for each in there)

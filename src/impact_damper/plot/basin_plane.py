@@ -8,7 +8,7 @@ from impact_damper.data.variables import BASIN_LABEL
 from impact_damper.plot import style
 from impact_damper.plot.sheets import dataset_in, sheet
 
-# Colours of attractors in the order of displacement. The largest of several has the last colour.
+# Colours of attractors in the order of displacement. The last one is for the largest of several.
 COLOURS = (style.SKY, style.VERMILION, style.PURPLE, "#F7E7A6")
 CHAOS = style.ORANGE
 # Colours of states that lead to no attractor, for the labels -6 to -1 (`BASIN_LABEL`).
@@ -70,7 +70,6 @@ def _draw_labels(axes, data, colours):
 
 
 def _draw_shares(axes, data, colours):
-    """Shade each state by the share of the loose mass's places that lead to the smallest motion."""
     shades = LinearSegmentedColormap.from_list("shares", [style.WHITE, style.SKY])
     drawn = _fill(axes, data, data["basin_share"][0], cmap=shades, vmin=0, vmax=1)
     words = "share of places of the loose mass"

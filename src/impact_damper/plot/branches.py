@@ -16,7 +16,7 @@ EVENTS = {
     "grazing": ("change of contact", "P", style.SKY),
     "merging": ("change of contact", "P", style.SKY),
 }
-# Kinds of ends beyond which a branch goes on but was not computed, and their marker.
+# Kinds of ends beyond which a branch goes on, but was not computed; OPEN is their marker.
 OPEN_ENDS = ("lost", "point_limit", "unstable")
 OPEN = {"marker": "x", "color": style.BLACK, "markersize": 4.5, "linestyle": "none", "zorder": 3.1}
 # Looks of branches. Columns: label, colour, opacity of unstable orbits, condition on the period.
@@ -87,7 +87,7 @@ def followed_label(data):
 
 
 def runs(data, chosen):
-    """Yield the stable and unstable parts of each branch for whose period `chosen` is true."""
+    """Yield the stable and unstable parts of all branches with a period that fulfils `chosen`."""
     stable = data["orbit_stability"].values == flag("orbit_stability", "stable")
     value, size = data["followed_value"].values, data["orbit_displacement"].values
     for branch, period in enumerate(data["branch_period"].values):
@@ -97,7 +97,7 @@ def runs(data, chosen):
 
 
 def parts_by_stability(value, size, stable):
-    """Yield parameter, displacement and stability of each part of a branch of equal stability."""
+    """Cut a branch where its stability changes. Yield parameters, displacements, stability."""
     edges = [0, *(np.flatnonzero(np.diff(stable)) + 1), len(value)]
     for first, last in zip(edges, edges[1:], strict=False):
         if last > first:

@@ -82,7 +82,7 @@ def over_frequency(data) -> tuple:
 
 
 def gap_panel(axes, data):
-    """Draw displacements against the gap: those from the search for a gap, and the quiet orbit."""
+    """Draw displacements against the gap: results of the search for a gap, and quiet orbits."""
     gap = float(data["design_gap"])
     tolerance = parameters_of(data)["tolerances"].get("gap", 0.0)
     axes.axvspan(gap * (1 - tolerance), gap * (1 + tolerance), **TOLERATED)
@@ -142,7 +142,7 @@ def draw_forces(data):
 
 @style.context()
 def draw_transients(data):
-    """Return the figure of frequency sweeps up and down and of an unforced decay, or None."""
+    """Return the figure of frequency sweeps and of an unforced decay, None without such data."""
     if "sweep_envelope" not in data:
         return None
     drawn = style.figure("double", 2.8)
@@ -190,7 +190,7 @@ def draw_machines(*, machines):
 
 
 def finite(values):
-    """Return displacements, with NaN in place of motions that escape."""
+    """Return the displacements `values`, with NaN for motions that escape."""
     values = np.asarray(values, float)
     return np.where(values < ENDLESS, values, np.nan)
 

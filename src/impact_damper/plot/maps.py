@@ -10,7 +10,7 @@ from impact_damper.plot import style
 
 
 def mesh(axes, x, y, values, norm, absent=None):
-    """Draw and return cells coloured by `values`. NaN cells are hatched and labelled `absent`."""
+    """Draw and return cells coloured by `values`. Cells with NaN are hatched, labelled `absent`."""
     back = {"facecolor": style.PALE, "hatch": "////", "edgecolor": style.GREY}
     axes.patch.set(linewidth=0, **back)
     if absent:
@@ -20,7 +20,7 @@ def mesh(axes, x, y, values, norm, absent=None):
 
 
 def hatch(axes, x, y, where, **look):
-    """Hatch the cells at which `where` is true. One path for all cells is fast."""
+    """Hatch the cells at which the mask `where` is true."""
     x, y = edges_of(x), edges_of(y)
     cells = [
         Path.unit_rectangle().transformed(

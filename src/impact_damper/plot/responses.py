@@ -9,7 +9,7 @@ from impact_damper.plot.sheets import datasets_in, sheet
 
 # Look of the line that joins the settled motions of a branch.
 JOINED = {"linestyle": "-", "linewidth": 0.5}
-# Looks of motions that have not settled, by their outcome, with (DAMPED) and without (FREE) damper.
+# Outcome of a motion that has not settled -> look, with a damper (DAMPED) and without (FREE).
 DAMPED = {name: style.ROLES[name] for name in ("chaotic", "chaotic_transient", "quasi_periodic")}
 DAMPED |= {name: style.ROLES["non_colliding"] for name in ("non_colliding", "drifting")}
 DAMPED["unresolved"] = style.ROLES["unresolved"]
@@ -98,7 +98,6 @@ def _draw_orbits(axes, orbits, stable):
 
 
 def _draw_balance(axes, balance, free):
-    """Draw results of harmonic balance. Solutions without a damper are drawn only if `free`."""
     if "band_status" in balance and balance["band_status"] == flag("band_status", "found"):
         axes.axvspan(*balance["edge_frequency"].values, **style.ROLES["band"])
     if free:
@@ -118,7 +117,6 @@ def _draw_solutions(axes, amplitude, role):
 
 
 def _draw_unstable(axes, balance):
-    """Draw the unstable solutions without a damper as one line, in the order of their phase."""
     phase = balance["free_phase"].values
     order = np.argsort(phase, axis=None)[: np.isfinite(phase).sum()]
     frequency, amplitude, stability = (
@@ -150,7 +148,6 @@ def _draw_motions(axes, motions):
 
 
 def _branch_lines(motions, chosen):
-    """Yield frequencies and displacements of a line for each branch, up to its known ends."""
     branch, period = motions["branch"].values, motions["period"].values
     names = ("end_branch", "end_direction", "end_value", "end_displacement")
     ends = list(zip(*(motions[name].values for name in names), strict=True))
@@ -167,7 +164,7 @@ def _branch_lines(motions, chosen):
 
 
 def _draw_unsettled(axes, motions, looks):
-    """Draw motions that have not settled. Chaos that ended (`life_ends` > 0) is a transient."""
+    """Draw motions that have not settled. Chaos that has ended has the look "chaotic_transient"."""
     for status, look in looks.items():
         outcome = "chaotic" if status == "chaotic_transient" else status
         chosen = motions["outcome"].values == flag("outcome", outcome)

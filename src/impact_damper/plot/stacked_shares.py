@@ -87,7 +87,7 @@ def _look(kind, rank):
 
 
 def _ranked_motions(data):
-    """Return kind, rank and mask of each motion. Of a kind, the most frequent motion has rank 0."""
+    """Return kind, rank and mask of each motion. The most frequent motion of a kind has rank 0."""
     found, ranks = {kind: [] for kind in LOOKS}, Counter()
     for each in families(data):
         if each.starts:
@@ -102,7 +102,6 @@ def _ranked_motions(data):
 
 
 def _parts(data, kind, places):
-    """Return {kind: mask} of a motion. Chaos that ended (`life_ends` > 0) is a separate kind."""
     if kind != "chaotic" or "life_ends" not in data:
         return {kind: places}
     ended = data["life_ends"].values > 0

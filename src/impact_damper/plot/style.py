@@ -32,7 +32,7 @@ STYLE = {
     "legend.frameon": False,
     "legend.handlelength": 2.4,
     "legend.columnspacing": 1.4,
-    # Height of titles. With None a search for a free height takes a fifth of the drawing time.
+    # Height of titles. With None matplotlib searches for a free height, which takes long.
     "axes.titley": 1.0,
     "axes.linewidth": 0.6,
     "axes.prop_cycle": cycler(color=[BLUE, VERMILION, GREEN, ORANGE, PURPLE, BLACK]),
@@ -128,7 +128,7 @@ def figure(column, height) -> Figure:
 
 
 def grid(count, row, rest, columns=2, **shared):
-    """Return a figure, `rest` + `row` x (number of rows) inches high, and its lettered axes."""
+    """Return a figure with `count` lettered axes, and the axes. A row is `row` inches high."""
     columns = min(columns, count)
     rows = -(-count // columns)
     drawn = figure("double", rest + row * rows)
@@ -204,15 +204,11 @@ def legend(figure, columns) -> None:
 
 
 def save_figure(figure, path) -> None:
-    """Write `path`.pdf and `path`.png. Each file is complete or absent, with reproducible bytes.
-
-    The layout is computed once, so that both files have the same layout. Then the layout engine is
-    removed, because with a layout engine matplotlib draws each file twice.
-    """
+    """Write `path`.pdf and `path`.png. Each file is complete or absent, with reproducible bytes."""
     with context():
         if figure.get_layout_engine() is not None:
             figure.get_layout_engine().execute(figure)
-        figure.set_layout_engine(None)
+        figure.set_layout_engine(None)  # with a layout engine each file would be drawn twice
         for kind, metadata in {"pdf": {"CreationDate": None}, "png": {"Software": None}}.items():
             with whole(f"{path}.{kind}") as part:
                 figure.savefig(part, format=kind, metadata=metadata)

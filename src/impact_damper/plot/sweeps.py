@@ -95,7 +95,6 @@ def _titles(sweeps):
 
 
 def _parameters(sweep):
-    """Return a text for each parameter that may differ between sweeps, the damper's mass last."""
     values = parameters_of(sweep)
     if "machine" not in sweep.attrs:
         return [style.parameter_label(values, name) for name in VARIED]

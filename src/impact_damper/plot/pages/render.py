@@ -21,7 +21,7 @@ from impact_damper.model.text import number, percent, with_unit
 from impact_damper.plot import style
 from impact_damper.plot.machine_figures import ENDLESS, FIGURES
 
-# Dots per inch of figures. A figure 7 inches wide has 1540 pixels and is never enlarged on a page.
+# Resolution of the figures on a page, in dots per inch.
 DPI = 220
 # A page of this package is recognised by this text, the beginning of a line of HTML.
 GENERATOR = '<meta name="generator" content="impact-damper'
@@ -139,8 +139,9 @@ QUANTITIES = {
 }
 # With fewer than HARDLY impacts in a cycle the loose mass is only ballast.
 HARDLY = 0.2
-# Columns of two tables. GIVEN: key of the machine, description, unit, divisor, key of the tolerance
-# or None. COSTS: variable of the design, description, unit, factor.
+# GIVEN has a row for each property of a machine: its key, description, unit, size of the unit in SI
+# units, key of its tolerance or None. COSTS has a row for each variable of a design: its name,
+# description, unit, factor by which to multiply the variable for this unit.
 TABLES = {
     "GIVEN": (
         ("mass", "mass without the loose mass", "kg", 1, None),
@@ -172,7 +173,7 @@ TABLES = {
 
 
 def size(value, unit="mm", digits=3) -> str:
-    """Return a number with its unit, "escapes" (infinite or ENDLESS mm), or "not known" (NaN)."""
+    """Return a value with its unit, or "escapes" if it is infinite, or "not known" if it is NaN."""
     if np.isnan(value):
         return "not known"
     escapes = np.isinf(value) or (unit == "mm" and value >= ENDLESS)
@@ -180,7 +181,7 @@ def size(value, unit="mm", digits=3) -> str:
 
 
 def numbers_of(data) -> dict:
-    """Return a dictionary of the numbers and texts of a design that templates show."""
+    """Return a dictionary of the numbers and texts of a design that the page shows."""
     asked = parameters_of(data)  # arguments of the design
     gap, tolerances = float(data["design_gap"]), asked["tolerances"]
     tolerance = tolerances.get("gap", 0.0)
@@ -239,7 +240,6 @@ def numbers_of(data) -> dict:
 
 
 def _hits(data) -> float:
-    """Return the largest number of impacts in a cycle over the band, or NaN if it is unknown."""
     if "impact_rate_by_frequency" not in data:
         return np.nan
     return float((data["impact_rate_by_frequency"] / data["frequency"]).max())
@@ -253,7 +253,7 @@ def _peak(data, name) -> SimpleNamespace:
 
 
 def _worst_values(data):
-    """Return texts such as "gap +5 %" for the deviations that lead to the promised displacement."""
+    """Return texts such as "gap +5 %", the deviations from nominal values in the worst set."""
     factors = data["promise_factor"].values[int(data["promised_set"])]
     return [
         f"{QUANTITIES[str(name)]} {'+' if factor > 1 else '-'}{percent(abs(factor - 1))}"
@@ -277,7 +277,7 @@ def _shocks(data):
 
 
 def _condition(data):
-    """Return the smallest change of gap or excitation that broke the promise, or None."""
+    """Return the smallest change of gap or excitation that breaks the promise, or None."""
     gap, promised = float(data["design_gap"]), float(data["promised_displacement"])
     found = []
     lost = (
@@ -306,7 +306,6 @@ def _condition(data):
 
 
 def _worse(data, nominal):
-    """Return frequencies at which the machine moves more with the damper than without, or None."""
     if float(data["worst_ratio"]) <= 1:
         return None
     known = ~np.isnan(nominal)
@@ -324,7 +323,7 @@ def _worse(data, nominal):
 
 
 def _other_mass(data, asked):
-    """Return a damper with another mass that is good enough if the one asked for is not."""
+    """Return a good damper with another mass if the damper asked for is not good, or None."""
     missed = named(data, "limit_status") == "missed"
     fails = missed or named(data, "decision") == "do_not_build"
     if "other_mass" not in data or not fails:
