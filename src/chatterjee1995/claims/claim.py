@@ -77,7 +77,7 @@ class Claim:
 
     `required` and `full_agreement` are dicts: bound as text -> meaning of the bounded number, or
     None if an earlier bound gives the meaning. If a required bound fails, the claim is not
-    reproduced. If only bounds for full agreement fail, it is reproduced with a difference.
+    reproduced. If only bounds for full agreement fail, the claim is reproduced with a difference.
     `figures` are names of figures, the most important first. `verdicts` is a dict: verdict ->
     words that are printed in its place.
     """
@@ -100,7 +100,7 @@ class Claim:
         return {Bound.read(bound).name: words for bound, words in texts.items() if words}
 
     def verdict(self, values) -> str:
-        """Return the verdict. A NaN makes it "not decidable", unless a required bound fails."""
+        """Return the verdict: "not decidable" if a value is NaN and no required bound fails."""
         required, wished = (
             [Bound.read(text).holds(values) for text in bounds]
             for bounds in (self.required, self.full_agreement)

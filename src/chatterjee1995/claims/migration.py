@@ -123,7 +123,7 @@ def early_release(datasets):
 
 
 def by_policy(datasets, case, policy):
-    """Return the share of runs in which a release policy succeeds, and the median of the cycles."""
+    """Return the share of runs in which a release policy succeeds, and the median cycles needed."""
     damper, frequency = damper_of(case), reading.parameter(case, "frequency")
     names = "mass_ratio", "clearance", "restitution"
     for data in datasets.get("release_policies", {}).values():

@@ -28,7 +28,7 @@ def carriage(axes):
 
 
 def slot(axes, contact):
-    """Draw the slot with the loose mass. `contact` draws what one wall of the slot carries."""
+    """Draw the slot with the loose mass. `contact` is called for each wall and draws its spring."""
     parts.mass(axes, 2.5, 0.66, 3.0, 1.46, style.WHITE)
     parts.wheels(axes, (3.85, 4.15), 0.66, 0.04)
     parts.mass(axes, 3.68, 0.74, 0.64, 0.90, style.PALE_SKY)
@@ -125,7 +125,7 @@ def state(axes, position, symbol, shift):
 
 
 def triad(axes, x, y):
-    """Draw three axes: displacement and velocity in the planes, state of the damper upwards."""
+    """Draw three axes: displacement and velocity in a plane, state of the damper upwards."""
     for end, symbol, shift in (
         ((x + 0.34, y), "$Z_1$", (0.12, 0)),
         ((x + 0.2, y + 0.24), "$Z_1\u2032$", (0.09, 0.09)),

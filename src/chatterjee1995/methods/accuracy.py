@@ -42,8 +42,8 @@ meets_accuracy | run | | | whether the run meets the accuracy required by the sc
 )
 
 LONGER = 4  # the reference run of a chaotic scene is LONGER times as long as the scene
-# In a chaotic motion the number of contacts per cycle is wrong if it differs from the reference by
-# more than the fraction CONTACTS_OFF plus SURE standard errors.
+# In a chaotic motion the number of contacts per cycle counts as wrong if its relative error exceeds
+# CONTACTS_OFF plus SURE standard errors.
 CONTACTS_OFF, SURE = 0.1, 2
 
 

@@ -48,7 +48,7 @@ def exponents(solution) -> Exponents:
 
 
 def _near_zero(stiffness, damping, inertia):
-    """Return the lambda nearest to 0 with (stiffness + lambda damping + lambda^2 inertia) p = 0."""
+    """Return values lambda near 0 with (stiffness + lambda damping + lambda^2 inertia) p = 0."""
     size = len(stiffness)
     factors = lu_factor(stiffness, check_finite=False)
 

@@ -15,8 +15,8 @@ class Run(NamedTuple):
     """A computed motion. Its `state` is the last state, its `displacement` the largest |Z1|.
 
     `status` is "ended", "failed", or "capped" after too many evaluations. Contacts begin at the
-    times `contact_times`. `peaks` are the values of |Z1| at turning points of Z1, at the
-    times `peak_times`. With rigid walls `peaks` are the largest |Z1| in each cycle.
+    times `contact_times`. `peaks` are the values of |Z1| at turning points of Z1, at the times
+    `peak_times`. With rigid walls `peaks` are the largest |Z1| in each cycle.
     """
 
     status: str
@@ -44,9 +44,8 @@ class Integrator:
     Figures show integrators in the order of `place`. `compared` names the stages that use the
     integrator. For each of these stages the integrator defines one of the functions in REQUIRED.
     `located` holds the values of `locate` that the stage `accuracy` compares. `tolerances` is one
-    of `labels.TOLERANCE_KEYS`. A `slow` integrator runs for fewer cycles. `stability_limit` is
-    the largest step, times natural frequency, with which an undamped linear oscillation stays
-    bounded.
+    of `labels.TOLERANCE_KEYS`. A `slow` integrator runs for fewer cycles. `stability_limit` is the
+    largest step, times natural frequency, with which an undamped linear oscillation stays bounded.
     """
 
     REQUIRED: ClassVar = {
@@ -67,7 +66,7 @@ class Integrator:
         return f"{self.name}_{'located' if locate else 'kink'}"
 
     def steps(self, p, start, begin, periods, tolerance, locate, most_evaluations):
-        """Return status and operations, and times and states at both ends of each step."""
+        """Return a status, the number of operations, and the times and states between steps."""
         raise NotImplementedError
 
     def run(self, p, *given) -> Run:
@@ -126,7 +125,7 @@ def _turning_points(p, times, ends):
 
 
 def _quintics(p, times, ends, index, steps):
-    """Return a polynomial (as a column) for each of `steps`. It interpolates a state component."""
+    """Return for each of `steps` a polynomial (a column) that interpolates a state component."""
     rates = [
         np.array([rate(p, wall_at(p, ends[k, 2]), times[k], tuple(ends[k])) for k in at])
         for at in (steps, steps + 1)

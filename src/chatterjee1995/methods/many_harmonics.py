@@ -143,7 +143,7 @@ def _real(by_value, by_conjugate):
 
 # TOLERANCE: Newton's method has converged if max |change| <= TOLERANCE * max |coefficient|.
 # ITERATIONS: largest number of steps of Newton's method.
-# LEAST_DAMPING: smallest factor by which such a step is shortened.
+# LEAST_DAMPING: smallest factor by which a step of Newton's method is shortened.
 TOLERANCE, ITERATIONS, LEAST_DAMPING = 1e-11, 40, 1e-4
 
 

@@ -50,7 +50,7 @@ class Model(NamedTuple):
 
 
 def rigid(p, restitution, start, t, periods, tolerance):
-    """Run from `start` at t with rigid walls; return a `Run`. `peaks` is max |Z1| of each cycle."""
+    """Run from `start` at t with rigid walls; return a `Run` with max |Z1| of each cycle."""
     p = without_dashpot(p)
     y, none, work = start.copy(), np.empty((0, 4)), workspace()
     period, counts = 2 * math.pi / p[FREQUENCY], [0, 0, 0]
@@ -115,7 +115,7 @@ def full_balance(oscillator, damper, frequency, state):
 
 
 def nearest_term(oscillator, damper, frequency, state):
-    """Return the coefficients of the solution of (7) nearest to `state`, and the operations."""
+    """Return coefficients of the solution of (7) nearest to `state`, and a count of operations."""
     if damper is None:
         work = 2 * 10 * 3**3
         solutions = free_solutions(oscillator, frequency)

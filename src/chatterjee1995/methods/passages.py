@@ -68,9 +68,9 @@ def without_walls(p):
 
 
 def draw_passages(p, count, radius, deepest, seed) -> list:
-    """Return `count` passages from random states in a ball, for contacts up to `deepest` deep.
+    """Return `count` passages from random states in a ball of the given radius.
 
-    A passage is kept if max |Z2| exceeds 2 * deepest, and exceeds |Z2| at both ends by `deepest`.
+    In each of them max |Z2| exceeds 2 * deepest, and exceeds |Z2| at both ends by `deepest`.
     """
     random = np.random.default_rng(seed)
     flying = without_walls(p)

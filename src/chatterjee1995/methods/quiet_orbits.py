@@ -54,7 +54,7 @@ class QuietOrbits(NamedTuple):
     multiplier: Dominant eigenvalue of the map of half a cycle. Its square is a Floquet multiplier.
     displacement, harmonic: max |Z1|, and the amplitude of the first harmonic of Z1.
     end: First and last column, with a fraction, of the orbits in each row; shape (rows, 2).
-    end_event: What ends them there: map_ends (edge of the grid), fold, contacts_change,
+    end_event: What ends the orbits there: map_ends (edge of the grid), fold, contacts_change,
         not_converged, or no_orbit in a row without orbits.
     """
 
@@ -142,9 +142,9 @@ def _end(followed):
     return fraction, followed.status
 
 
-# The ratio rm W^2 d0/f, where f is the forcing amplitude, at which rule (18) holds with the first
-# harmonic of Z2 in place of d0. This harmonic is 8 d0/pi^2 if the primary mass rests and the loose
-# mass flies to and fro at constant speed.
+# FIRST_HARMONIC_RATIO is the ratio rm W^2 d0/f (f: forcing amplitude) by rule (18) if the first
+# harmonic of Z2 replaces d0 in this rule. The harmonic is 8 d0/pi^2 if the primary mass rests and
+# the loose mass flies to and fro at constant speed.
 FIRST_HARMONIC_RATIO = np.pi**2 / 8
 # IMPULSE is the `impulse` q of a `Flight` for which |Z1| is equally large at an impact and at a
 # turning point. TURN is the phase phi of this turning point. For e = 1, without damping and spring,
@@ -157,7 +157,7 @@ RULES = ("balance", "gap_harmonic", "straight_flight", "elastic", "flight")
 
 
 def elastic_ratios(flight) -> tuple[float, float]:
-    """Return rm W^2 d0/f with the least max |Z1|, and with the least first harmonic (for e = 1)."""
+    """Return rm W^2 d0/f of least max |Z1|, and of the least first harmonic of Z1, for e = 1."""
     if flight.restitution != 1:
         return np.nan, np.nan
     contact, damping, whole = flight.contact, flight.damping, 1 + flight.mass_ratio

@@ -24,7 +24,7 @@ from impact_damper.model.packed import (
 )
 from impact_damper.motions.strobe_map import CONVERGED, POLISH_TOLERANCE, strobe_time
 
-# A run stops after MOST_IMPACTS impacts in a cycle. If e < 1, a cycle can have infinitely many.
+# A run stops after MOST_IMPACTS impacts in a cycle. If e < 1, infinitely many are possible.
 MOST_IMPACTS = 200
 ITERATIONS = 12  # largest number of steps of Newton's method
 SAME_SPEED = 1e-6  # largest relative difference of the two approach speeds in a symmetric orbit

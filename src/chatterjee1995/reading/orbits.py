@@ -89,7 +89,7 @@ def covered(part, lower=-np.inf, upper=np.inf):
 
 
 def coexisting(part, column):
-    """Return how wide a range of W is in which orbits with different values of `column` coexist."""
+    """Return the width of the range of W in which orbits that differ in `column` coexist."""
     values = [ranges(same) for _, same in part.groupby(column)]
     if not values:
         return 0.0

@@ -36,7 +36,7 @@ def stage(function, message, **options):
 
 @dataclass(frozen=True)
 class Shown:
-    """A table, or a kind of figure. Functions in the module `module` make both from datasets."""
+    """A table or a kind of figure, made from datasets by a function in the module `module`."""
 
     name: str
     chapter: str

@@ -7,7 +7,7 @@ from impact_damper.model.parameters import SYMBOLS
 from impact_damper.model.text import number
 
 MANY = 3  # length above which a list is written as its smallest and largest value only
-# Key of an entry that lists values of a parameter -> name of the parameter.
+# Key under which an entry lists values of a parameter -> name of the parameter.
 SWEPT = {
     "mass_ratios": "mass_ratio",
     "clearances": "clearance",
@@ -31,9 +31,9 @@ def job(config, stage, name) -> dict:
 
 
 def read_by(config, stage, name) -> dict:
-    """Return a dict: argument of the function of `stage` -> names of the stages read for it.
+    """Return a dict: argument of the function of `stage` -> stages whose datasets it contains.
 
-    Only stages that have a dataset of the entry `name` are listed.
+    Only stages that compute a dataset of the entry `name` are listed.
     """
     return {
         key: [each for each in stages if name in entries(config, each)]

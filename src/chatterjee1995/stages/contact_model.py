@@ -56,7 +56,7 @@ def contact_model(
     seed=1995,
     settling,
 ):
-    """Return a dataset: contacts by restitution and load, and the loads of simulated motions.
+    """Return a dataset: contacts by restitution and load, and loads in simulated motions.
 
     The simulated motions have random starts at each frequency and each restitution in `used`.
     """
@@ -117,7 +117,7 @@ def unloaded_table(restitutions):
 def extreme_motions(oscillator, damper, frequency, starts, seed, settling):
     """Run motions from random starts. Return the smallest settled motion, and the largest motion.
 
-    Only motions with contacts count. If there is none, return None in its place.
+    Only motions with contacts count. None takes the place of a motion that does not exist.
     """
     p = pack(oscillator, damper, frequency)
     states = random_states(starts, damper.clearance, damper, seed)

@@ -54,7 +54,7 @@ IMPULSES = 400  # number of impulses for which the theory of straight flight is 
 def design_rules(
     oscillator, mass_ratios, restitutions, contact_stiffnesses, frequencies, *, progress=None
 ):
-    """Return a dataset: optimum clearances, and the errors of rules, by damper and frequency."""
+    """Return a dataset: by damper and frequency the optimum clearances, and the errors of rules."""
     given = mass_ratios, restitutions, contact_stiffnesses, frequencies
     axes = {name: np.array(values, float) for name, values in zip(SWEPT, given, strict=True)}
     shape = tuple(map(len, axes.values()))

@@ -50,8 +50,8 @@ ANALYTIC = (1.0, 1.0, 1.0, 2.0)
 # Constants of `singularity_distance`, with x = (f/|k3|)^(1/3) and the forcing amplitude f.
 # STARTS: number of start times in half a forcing cycle.
 # LARGE: |Z1| at which an integration towards the singularity stops, in units of x.
-# LAST_CHANGE: the search ends if the time reached changes by less; in units of 1/(x sqrt|k3|).
-# CLOSE: the next integration goes this fraction of the way from real time to the singularity.
+# LAST_CHANGE: the search ends if its last two times differ by less, in units of 1/(x sqrt|k3|).
+# CLOSE: each further integration goes this fraction of the way from real time to the singularity.
 STARTS, LARGE, LAST_CHANGE, CLOSE = 12, 30.0, 1e-6, 0.95
 
 
@@ -72,7 +72,7 @@ def asymptotic_harmonic(damper, frequency) -> float:
 
 
 def decay(damper, p, state) -> tuple:
-    """Return how errors decrease by theory: "algebraic", powers of 1/N, or "exponential", rates."""
+    """Return how errors should fall: ("algebraic", powers of 1/N) or ("exponential", rates)."""
     if damper is None:
         return "exponential", np.array(ANALYTIC) * p[FREQUENCY] * singularity_distance(p, state)
     return "algebraic", np.array(ELASTIC if damper.restitution == 1 else INELASTIC)
@@ -97,7 +97,7 @@ def singularity_distance(p, state) -> float:
         return np.array([v, drive - p[DAMPING] * v - stiffness * x - cubic * x**3])
 
     def integrate(y, begin, end):
-        """Integrate on a line in complex time until its end or until |Z1| is LARGE."""
+        """Integrate on a line in complex time from `begin` to `end`, or until |Z1| is large."""
 
         def large(fraction, y):
             return LARGE * length - abs(y[0])
@@ -196,7 +196,7 @@ def cold_status(warm, first) -> int:
 
 
 def errors(solutions, multipliers, exact):
-    """Return the errors of n solutions against the exact orbit. The rows (4, n) are MEASURES."""
+    """Return the errors of solutions against the exact orbit, a row for each of MEASURES."""
     found = np.full((len(MEASURES), len(solutions)), np.nan)
     balance, size = solutions[0].balance, exact.record["maximum_displacement"]
     start = exact.strobe_states[0]

@@ -67,7 +67,7 @@ class Outcome(NamedTuple):
 def release_policies(
     oscillator, dampers, frequencies, *, trials=200, cells=64, seed=1995, settling, workers=1
 ):
-    """Return a dataset that compares the policies for each damper and frequency."""
+    """Return a dataset that compares release policies for each damper and frequency."""
     shape = len(dampers), len(frequencies), len(POLICIES)
     data = {
         "policy_success": np.empty((*shape, 3)),
@@ -154,7 +154,7 @@ class Trials(NamedTuple):
         return list(map(Outcome, *(column.reshape(-1, trials) for column in columns)))
 
     def hold(self, starts, draws, limits, rules):
-        """Run trials with the damper on, on several threads. Return a HELD record for each."""
+        """Run trials with the damper on, in several threads. Return a HELD record of each."""
         held, stop = np.zeros(len(starts), HELD), np.zeros(1, bool)
         set_ = self.releases
 
@@ -168,7 +168,7 @@ class Trials(NamedTuple):
         return held
 
     def labels(self, states):
-        """Return the label of the motion that each state at a strobe leads to, and its cycles."""
+        """Return for each strobe state the label of the motion that follows, and cycles to it."""
         settings = self.settling.tolerance, self.settling.limit, self.workers
         return ensemble.label_states(
             self.releases.p, states, math.pi / 2, self.releases.attractors, *settings
@@ -177,7 +177,7 @@ class Trials(NamedTuple):
 
 @kernel
 def hold_many(on, off, starts, draws, limits, rules, depth, half, tolerance, held, stop):
-    """In each trial switch the damper on, keep it on by `legs.hold`, and run to the next strobe.
+    """In each trial switch the damper on, run by `legs.hold`, and run on freely to the next strobe.
 
     `starts` (n, 2) are Z1, Z1' at the last strobe before. `draws` set the phase of switching on,
     the place of the loose mass and the release. The results are written to `held`. `legs.hold`

@@ -139,7 +139,7 @@ def _summary(switchings, totals):
 
 
 def _release(case, state, wait, settling, stop=NEVER):
-    """Switch the damper off `wait` cycles after a strobe with this state; return a RELEASE."""
+    """Switch the damper off `wait` cycles after the strobe at `state`, and return a RELEASE."""
     tolerance, limit = settling.tolerance, settling.limit
     path, record = legs.leg(case.on, case.off, state.copy(), wait, 0.0, 0.0, tolerance, limit, stop)
     return wait, *path[0, 1:3], destination(case.known, record)

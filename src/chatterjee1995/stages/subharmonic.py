@@ -50,8 +50,8 @@ def subharmonic_suppression(
 ):
     """Return a dataset of motions with the damper in the range of W of the free subharmonic.
 
-    If the free subharmonic is found, `frequencies` are replaced by as many frequencies over its
-    range and a margin on both sides. Within the range, half of the starts lie on the free
+    If the free subharmonic is found, an equal number of frequencies over its range, with a margin
+    on both sides, replaces `frequencies`. Within the range, half of the starts lie on the free
     subharmonic.
     """
     if not any(getattr(oscillator, name) for name in NONLINEAR):
@@ -126,7 +126,7 @@ def _subharmonic_table(data, free):
 
 
 def is_subharmonic(data):
-    """Return an array: whether a motion has settled with a period that is a multiple of 3."""
+    """Return an array: whether each motion has settled with a period that is a multiple of 3."""
     return (data["outcome"][1] == flag("outcome", "settled")) & (data["period"][1] % 3 == 0)
 
 

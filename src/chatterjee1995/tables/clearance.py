@@ -22,7 +22,7 @@ CRITERIA = {"displacement": "max |Z1|", "first_harmonic": "first harmonic of Z1"
 
 
 def optimum(datasets) -> pd.DataFrame:
-    """Return a table of clearance sweeps: the optimum d0 by simulation, equation (7), and rules."""
+    """Return a table of clearance sweeps: optimum d0 by simulation, equation (7) and each rule."""
     rows = []
     for name, data in datasets.get("optimum", {}).items():
         best, rule = float(data.optimum_clearance), float(data.rule_clearance)

@@ -18,10 +18,10 @@ def _count(values, meaning):
 
 
 def contact_model(datasets) -> pd.DataFrame:
-    """Return a table of given and realised restitution, for two rules of when a contact ends.
+    """Return a table of given and realised restitution, for two rules that end a contact.
 
-    A contact ends at zero depth or at zero force. Further columns count the cells of the map of
-    restitution and load, by the error of the restitution.
+    By the first rule a contact ends at zero depth, by the second rule at zero force. Further
+    columns count the cells of a map over restitution and load, by the error of the restitution.
     """
     rows = []
     for name, data in datasets.get("contact_model", {}).items():

@@ -62,7 +62,7 @@ def models(datasets) -> pd.DataFrame:
 
 
 def cheapest(data, labels):
-    """Of the runs that are accurate enough, return the index of the cheapest, or None."""
+    """Return the index of the cheapest accurate run of the methods `labels`, or None."""
     meets = decode(data["meets_accuracy"]).values == "yes"
     meets &= np.isin(data["method"].values, labels)
     work = np.where(meets, data["operations"].values, np.inf)

@@ -93,11 +93,11 @@ class SciPy(Integrator):
         return (np.abs(result.y[2]), abs(result.sol(time)[2])) if result.success else None
 
 
-# `operations` is what an evaluation costs besides the rate. In sums over the 4 components of the
-# state, each term costs 4 * 2 operations (a product and an addition).
+# `operations` is the cost of the method itself for each evaluation of the rate. In a sum of states,
+# a term costs 4 * 2 operations: a product and an addition for each of 4 components.
 # DOP853 adds about 6 terms for the next evaluation, and 4 for the end of the step and the error.
 # LSODA adds 21 terms, and solves 4 linear equations with 2 * 4^2 operations.
-# `factorising` is what an LU factorisation costs: 2/3 * 4^3. Only LSODA needs it.
+# `factorising` is the cost of an LU factorisation: 2/3 * 4^3. Only LSODA needs LU factorisations.
 INTEGRATORS = (
     SciPy("DOP853", 4, operations=4 * 2 * (6 + 4)),
     SciPy("LSODA", 5, operations=4 * 2 * 21 + 2 * 4**2, factorising=2 * 4**3 // 3),
