@@ -82,7 +82,7 @@ def contact_model(
 
 
 def spread_loads(largest, count):
-    """Return loads from -largest to largest, even up to |G| = LINEAR, then with equal ratios."""
+    """Return loads from -largest to largest, nearly even to |G| = LINEAR, then at equal ratios."""
     return LINEAR * np.sinh(np.linspace(-1, 1, count) * np.arcsinh(largest / LINEAR))
 
 
