@@ -26,8 +26,7 @@ Force = Annotated[
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")]
 Workers = Annotated[int, typer.Option(min=1, help="Threads; the result does not depend on it.")]
-# Exit code after Ctrl-C.
-INTERRUPTED = 130
+INTERRUPTED = 130  # exit code after Ctrl-C
 
 
 def tell_version(asked: bool):
@@ -175,7 +174,7 @@ def response(
 
 
 def different(sizes, shares, alike=1e-4):
-    """Return {size: share} by ascending size. The shares of nearly equal sizes are added up."""
+    """Return {size: share}, by ascending size. Motions of nearly equal size count as one."""
     found, last = {}, -1.0
     for size, share in sorted(zip(map(float, sizes), map(float, shares), strict=True)):
         if size > last * (1 + alike):
@@ -286,7 +285,7 @@ def answer(decide, made, machine_file, file, force, as_json):
 
 
 def damper(given, machine, gap):
-    """Return the damper that a file describes, with a given gap, or None if `gap` is None."""
+    """Return the damper of a machine's file (content `given`) with a gap, or None without a gap."""
     from impact_damper.command.machine_file import design_arguments
     from impact_damper.design.task import Task
 
@@ -317,7 +316,7 @@ def write_report(data, file, folder):
 
 
 def kept(data, output):
-    """Save a dataset to `output`, if that is a path. Return a list of the lines to print."""
+    """Save a dataset to the path `output`, unless it is None. Return lines that tell the path."""
     if output is None:
         return []
     from impact_damper.data.datasets import save

@@ -33,7 +33,7 @@ class AllowedQuantity(Allowed):
         return core_schema.with_info_plain_validator_function(self._quantity)
 
     def _quantity(self, value, info):
-        # If `context` is true, the values were checked before. The slow import of pint is skipped.
+        # If `context` is true, the value was checked before. Returning here avoids a slow import.
         if info.context:
             return value
         if any((absolute_value(value, each) or -1) > 0 for each in self.absolute):
@@ -55,7 +55,7 @@ def quantity_of(quantity, meaning="", absolute=(), **bounds):
 
 
 def fields_of(part, *, optional=False):
-    """Return a pydantic field for each field of a dataclass. If `optional`, none is required."""
+    """Return {name: pydantic field} of a dataclass. If `optional`, no field is required."""
     found = {}
     for each in fields(part):
         facts = each.metadata
@@ -69,7 +69,7 @@ class Given(section.Section):
     """Base of sections whose keys are the arguments of a dataclass in SI units."""
 
     def values(self) -> dict:
-        """Return {key: value} without the keys that are left out."""
+        """Return {key: value} for the keys that the user has given."""
         return {key: value for key, value in self if value is not None}
 
 
@@ -118,7 +118,7 @@ Body = create_model("Body", __base__=Given, **fields_of(Machine))
 
 
 def deviation_of(what, *absolute):
-    """Return an optional field: relative deviation of `what`, or a text in a unit of `absolute`."""
+    """Return an optional field: largest deviation of `what`, as a fraction or with a unit."""
     meaning = f"largest relative deviation of {what}"
     return quantity_of("number", meaning, absolute, least=0, most=0.9), None
 
@@ -196,8 +196,7 @@ class MachineEntry(section.Section):
 
 def design_arguments(content, workers=1) -> dict:
     """Return the arguments of `design_damper`, except the machine, from a file's content."""
-    # A local import, because the module loads SciPy.
-    from impact_damper.design.task import Effort
+    from impact_damper.design.task import Effort  # here, because the module loads SciPy
 
     damper, ball, band = content["damper"], content.get("contact"), content["band"]
     effort = {key: content[key] for key in ("candidates", "starts")}

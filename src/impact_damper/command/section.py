@@ -25,12 +25,12 @@ from pydantic_core import PydanticCustomError, core_schema
 from impact_damper.model.bounds import POINTS_RANGE, RUNS_RANGE, nearest
 from impact_damper.model.text import plain
 
-# pydantic inserts these words into the path of a wrong value. No key can have these names.
+# pydantic inserts one of these words among the keys that lead to a wrong value. They are not keys.
 NUMBER, RANGE = "<number>", "<range>"
 
 
 class Allowed:
-    """The allowed values of a key. An error says "must be" and `words`, not pydantic's message.
+    """The allowed values of a key. The message about a wrong value is "must be" and `words`.
 
     For a list or a mapping, the function `test` returns whether the value is allowed.
     """
@@ -66,7 +66,7 @@ class Allowed:
 
 
 def number(meaning="", *, above=None, least=None, most=None, why="", also=""):
-    """Return the type of a finite number. Errors name `also` as a value that is allowed too."""
+    """Return the pydantic type of finite numbers. Messages name `also` as another allowed value."""
     bounds = {"greater than": above, "at least": least, "at most": most}
     words = [f"a finite number{also and f' or {also}'}", *_bounds(bounds)]
     kind = confloat(strict=True, allow_inf_nan=False, gt=above, ge=least, le=most)
@@ -74,14 +74,14 @@ def number(meaning="", *, above=None, least=None, most=None, why="", also=""):
 
 
 def number_or_word(word, meaning, **bounds):
-    """Return the type of a value that is a finite number within bounds, or the word `word`."""
+    """Return a pydantic type. It allows finite numbers within bounds, and the text `word`."""
     of_number = number(meaning, **bounds, also="text")
     words = f"{of_number.__metadata__[-1].words}, of the form {word}"
     return Annotated[of_number | Literal[word], Allowed(words, meaning)]
 
 
 def number_or_range(model, meaning, **bounds):
-    """Return the type of a value that is a finite number, or a range that `model` checks."""
+    """Return a pydantic type. It allows finite numbers, and mappings that `model` accepts."""
     of_number = number(meaning, **bounds, also="keys with values")
 
     def kind(value):
@@ -92,24 +92,24 @@ def number_or_range(model, meaning, **bounds):
 
 
 def count(meaning, *, least, most, why=""):
-    """Return the type of a whole number within bounds."""
+    """Return the pydantic type of whole numbers from `least` to `most`."""
     words = ["a whole number", *_bounds({"at least": least, "at most": most})]
     kind = conint(strict=True, ge=least, le=most)
     return Annotated[kind, Allowed(", ".join(words), meaning, why)]
 
 
 def points_of(meaning):
-    """Return the type of a number of grid points."""
+    """Return the pydantic type of a key that gives a number of grid points."""
     return count(meaning, **POINTS_RANGE)
 
 
 def starts_of(meaning):
-    """Return the type of a number of random starts."""
+    """Return the pydantic type of a key that gives a number of random starts."""
     return count(f"random starts {meaning}", **RUNS_RANGE)
 
 
 def text(meaning, *, pattern="", least=0):
-    """Return the type of a text with at least `least` characters that matches a pattern."""
+    """Return the pydantic type of texts of `least` or more characters that match `pattern`."""
     words = ["text"]
     words += [f"of the form {pattern}"] if pattern else []
     words += [f"with {least} or more characters"] if least else []
@@ -118,12 +118,12 @@ def text(meaning, *, pattern="", least=0):
 
 
 def choice(meaning, *words):
-    """Return the type of a text that is one of the words."""
+    """Return the pydantic type that allows only the texts `words`."""
     return Annotated[Literal[words], Allowed(f"one of {', '.join(words)}", meaning)]
 
 
 def several(item, meaning="", *, least=0, most=None, distinct=False):
-    """Return the type of a list of `least` to `most` entries, each of the type `item`."""
+    """Return the pydantic type of lists of `least` to `most` entries, each of the type `item`."""
     words = ["a list"]
     if least == most:
         words += [f"with {least} entries"]
@@ -144,7 +144,7 @@ def several(item, meaning="", *, least=0, most=None, distinct=False):
 
 
 def entries(model):
-    """Return the type of a mapping. The user chooses its keys, and `model` checks its values."""
+    """Return the pydantic type of mappings with any keys, whose values `model` accepts."""
 
     def test(value):
         return isinstance(value, dict) and len(value) > 0
@@ -179,7 +179,7 @@ class Section(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     def contradictions(self, path, config):
-        """Yield messages about contradictions. `path` holds the keys from `config` to `self`."""
+        """Yield messages about contradictory values. `path`: keys from `config` to `self`."""
         yield from ()
 
     @model_validator(mode="wrap")
@@ -195,7 +195,6 @@ class Section(BaseModel):
 
     @classmethod
     def _worded(cls, value, detail):
-        """Return `detail`, an error of pydantic, with clearer words that name the known keys."""
         kind, path, given = detail["type"], detail["loc"], detail["input"]
         known = sorted(cls.model_fields)
         if not path:
@@ -214,7 +213,7 @@ class Section(BaseModel):
 
 
 def parts(value, path=()):
-    """Yield a pair (path of keys, section) for each section inside a value."""
+    """Yield a pair for each `Section` inside a value: the keys that lead to it, and the section."""
     if isinstance(value, Section):
         yield path, value
         for key in type(value).model_fields:
@@ -244,7 +243,7 @@ def increasing(path, values, reason):
 
 
 def one_of(name, known) -> str:
-    """Return "must be one of ..." with all known names, and a name close to `name`, if any."""
+    """Return "must be one of ..." with all `known` names, and a remark if `name` resembles one."""
     return f"must be one of {', '.join(known)}{nearest(name, known)}"
 
 
@@ -286,7 +285,7 @@ def check_file(path) -> None:
     problems, seen, nodes = [], set(), [root]
     while nodes:
         node = nodes.pop()
-        # With aliases a node can occur more than once, or even contain itself.
+        # With YAML aliases a node can occur more than once, or even contain itself.
         if id(node) in seen or not isinstance(node, yaml.CollectionNode):
             continue
         seen.add(id(node))

@@ -10,17 +10,14 @@ from impact_damper.model.parameters import Damper, Oscillator
 
 OSCILLATOR = Oscillator(damping=0.215)
 # At FREQUENCY, motions of OSCILLATOR and DAMPER settle after few cycles. Newton's method refines
-# settled motions, so its kernels are compiled too.
+# settled motions, so the kernels of Newton's method are compiled too.
 DAMPER = Damper(mass_ratio=0.25, clearance=1.0, restitution=0.75)
 FREQUENCY = 1.95
 
 
 def warm_up_orbits() -> None:
-    """Call each kernel that processes one motion at a time.
-
-    `warm_up_settling` may run in parallel. Because of the order of the calls, both functions rarely
-    compile the same kernel at the same time.
-    """
+    """Call each kernel that processes one motion at a time."""
+    # In this order, a parallel `warm_up_settling` rarely compiles the same kernel at the same time.
     from impact_damper.motions import records, strobe_map, traces
 
     on, off = (pack(OSCILLATOR, damper, FREQUENCY) for damper in (DAMPER, None))

@@ -20,12 +20,11 @@ from impact_damper.model.units import QUANTITIES
 
 SOURCE = "impact-damper"
 
-# Kinds of variables whose values stay dimensionless in datasets of machines.
-PURE = ("number", "angle", "mixed")
+PURE = ("number", "angle", "mixed")  # kinds that stay dimensionless in datasets of machines
 
 
 def variable(name, data, dims=None) -> xr.Variable:
-    """Return `data` as the variable registered under `name`; `dims` replaces its dimensions."""
+    """Return `data` as the registered variable `name`, with `dims` or the registered dimensions."""
     entry = VARIABLES[name]
     attributes = {"long_name": entry.long_name, "units": entry.units}
     if entry.symbol:
@@ -39,17 +38,17 @@ def variable(name, data, dims=None) -> xr.Variable:
 
 
 def shown_variable(name, values):
-    """Return `values` as the variable registered under `name`, in the unit used for machines."""
+    """Return `values`, in the units of machines, as the registered variable `name` with a unit."""
     found = variable(name, values)
     found.attrs["units"] = QUANTITIES[VARIABLES[name].kind].label
     return found
 
 
 def dataset(data, coordinates, parameters, title, model=None) -> xr.Dataset:
-    """Return a dataset of registered variables, given as dimensionless arrays.
+    """Return a dataset of registered variables from dimensionless arrays.
 
-    `data` and `coordinates` map registered names to arrays or pairs (dims, array). If `model` has a
-    machine, the dataset is converted to mm, Hz and so on.
+    `data` and `coordinates` map registered names to arrays or to pairs (dims, array). If `model`
+    has a machine, the dataset is converted to mm, Hz and so on.
     """
 
     def labelled(items):
@@ -76,8 +75,8 @@ def dataset(data, coordinates, parameters, title, model=None) -> xr.Dataset:
 def in_si(data, machine, damper=None) -> xr.Dataset:
     """Return a dimensionless dataset converted to the units of a machine.
 
-    Displacements are then in mm. States are in m and m/s, the units of states in arguments. The
-    attribute `machine` holds machine and damper in SI units, `parameters` stays dimensionless.
+    Displacements are then in mm, but states in m and m/s. The attribute `machine` of the dataset
+    holds machine and damper in SI units. The attribute `parameters` stays dimensionless.
     """
     scales = machine.scales
     found = _converted(data, lambda values, unit: values * unit, scales)
@@ -95,7 +94,7 @@ def from_si(data, scales) -> xr.Dataset:
 
 
 def _converted(data, convert, scales):
-    """Return a copy of a dataset in which convert(values, unit) replaces all values with a unit."""
+    """Return a copy of a dataset. Each variable that has a unit becomes convert(values, unit)."""
     found = {}
     for name, each in data.variables.items():
         kind = _kind(name, data)
@@ -111,7 +110,7 @@ def _converted(data, convert, scales):
 
 
 def _kind(name, data):
-    """Return the kind of a variable. For "followed" it is the kind of the varied parameter."""
+    """Return a variable's kind. In place of "followed", return the kind of the varied parameter."""
     kind = VARIABLES[name].kind
     if kind == "followed":
         parameter = parameters_of(data).get("parameter")
@@ -211,7 +210,7 @@ def oscillator_of(data) -> Oscillator:
 
 
 def damper_of(data, **others) -> Damper:
-    """Return the damper of a dataset. `others` gives the fields that vary over the dataset."""
+    """Return the damper of a dataset, with the fields `others`, which vary over the dataset."""
     return Damper(**pick(Damper, parameters_of(data)), **others)
 
 

@@ -2,7 +2,7 @@
 
 from impact_damper.data.variables import register
 
-# A gap is lost if the displacement that the search found there exceeds KEEPS x the promised one.
+# A gap is lost if its displacement in the search exceeds KEEPS x the promised displacement.
 # A damper is worth building if it lowers the largest displacement by the fraction WORTH or more.
 KEEPS, WORTH = 1.1, 0.25
 

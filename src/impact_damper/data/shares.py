@@ -5,12 +5,9 @@ import math
 import numpy as np
 from scipy.special import bdtr, gammaincinv  # `scipy.stats` takes half a second to import
 
-# Labels of the three numbers that `wilson` and `escape_rate` return.
-BOUNDS = ["share", "lower", "upper"]
-# Quantile of the normal distribution for a two-sided 95 % interval.
-QUANTILE = 1.959963984540054
-# Probability that a bound with 95 % confidence is wrong.
-DOUBT = 0.05
+BOUNDS = ["share", "lower", "upper"]  # labels of what `wilson` and `escape_rate` return
+QUANTILE = 1.959963984540054  # of the normal distribution, for a two-sided 95 % interval
+DOUBT = 0.05  # probability that a bound with 95 % confidence is wrong
 
 
 def wilson_intervals(successes, total):
@@ -24,29 +21,29 @@ def wilson_intervals(successes, total):
 
 
 def wilson(successes, total):
-    """Return a share and both ends of its Wilson 95 % interval, shape (3,); NaN if total is 0."""
+    """Return successes/total and both ends of its Wilson 95 % interval, or NaN if `total` is 0."""
     if total == 0:
         return np.full(3, np.nan)
     return np.concatenate([[successes / total], wilson_intervals(successes, total)])
 
 
 def bounding_rank(share, total, doubt=DOUBT) -> int:
-    """Return k, for which the k-th largest of `total` samples is a bound.
+    """Return k: the k-th largest of `total` samples of a distribution is a bound.
 
-    With the confidence 1 - doubt at least the fraction `share` of all values lies below this bound.
-    This holds for any distribution (S. S. Wilks, Ann. Math. Stat. 12, 1941). With too few samples
-    there is no bound, and k is 0.
+    With the confidence 1 - doubt, the distribution has at least the fraction `share` of its values
+    below this bound, whatever the distribution (S. S. Wilks, Ann. Math. Stat. 12, 1941). If
+    `total` is too small for a bound, k is 0.
     """
     return int(np.sum(bdtr(np.arange(total), total, 1 - share) <= doubt))
 
 
 def starts_needed(share) -> int:
-    """Return the least number of samples that gives a bound for the fraction `share` of values."""
+    """Return the least number of samples with which `bounding_rank` finds a bound for `share`."""
     return math.ceil(math.log(DOUBT) / math.log(share))
 
 
 def escape_rate(lives, horizon):
-    """Return the rate at which motions end, from their lives in cycles, and its 95 % interval."""
+    """Return the rate per cycle at which motions of `lives` cycles end, and its 95 % interval."""
     captures = np.sum(lives <= horizon)  # number of motions that ended within `horizon` cycles
     exposure = np.sum(np.minimum(lives, horizon))  # cycles that all motions lasted together
     # The ends of a confidence interval for a Poisson count are quantiles of a gamma distribution.

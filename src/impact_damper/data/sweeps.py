@@ -10,9 +10,10 @@ NAMES = {value: name for name, value in OUTCOME.items()}
 
 
 class Family(NamedTuple):
-    """A motion found over a range of a sweep. `starts` counts the random starts that lead to it.
+    """A motion found at some parameter values of a sweep. `starts` random starts lead to it.
 
-    `places`, shape (parameter values, motions), is True where arrays of the sweep have this motion.
+    `places` has the shape of the sweep's arrays (parameter values, motions). It is True at the
+    entries of this motion.
     """
 
     outcome: str
@@ -22,7 +23,7 @@ class Family(NamedTuple):
 
 
 def families(data) -> list[Family]:
-    """Return the motions of a sweep. The motion to which most starts lead comes first."""
+    """Return a `Family` for each motion of a sweep, by falling number of starts that lead to it."""
     branch, starts = data["branch"].values, data["motion_starts"].values
     found = []
     for branch_number in np.unique(branch[branch >= 0]):

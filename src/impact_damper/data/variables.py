@@ -3,7 +3,7 @@
 import re
 from typing import NamedTuple
 
-# A bar between spaces separates columns. The bars of "max |Z1|" do not.
+# A bar between spaces separates columns of a table. The bars in "max |Z1|" do not.
 BAR = re.compile(r"(?<!\S)\|(?!\S)")
 
 
@@ -58,7 +58,7 @@ def register(table) -> None:
 
 
 def _named_values(text):
-    """Return {name: number} for a text such as "absent 0, found 1", or for a variable's name."""
+    """Return {name: number} of a text such as "absent 0, found 1", or of a variable's name."""
     text = text.strip()
     if not text or text in VARIABLES:
         return VARIABLES[text].flags if text else None
@@ -66,8 +66,8 @@ def _named_values(text):
     return {name: int(value) for name, value in pairs}
 
 
-# Labels of states that lead to no attractor. A state is `mixed` if the place of the loose mass
-# decides to which of several attractors it leads.
+# Labels of states of the primary mass, in place of an attractor's number. A state is `mixed` if the
+# place of the loose mass decides which of several attractors is reached.
 BASIN_LABEL = {
     "unresolved": -1,
     "escaped": -2,

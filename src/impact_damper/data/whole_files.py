@@ -5,11 +5,10 @@ import os
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-# Advice that the workflow appends to a BrokenFileError about one of its results.
-DELETE = "delete it and run the same command again"
+DELETE = "delete it and run the same command again"  # the workflow's advice about a broken file
 
 # An HDF5 file begins with SIGNATURE and a superblock. If the superblock begins with one of
-# VERSIONS, the bytes LENGTH hold the length of the file.
+# VERSIONS, the bytes LENGTH of the file hold the file's length.
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
 VERSIONS = (b"\x02\x08\x08", b"\x03\x08\x08")
 LENGTH = slice(28, 36)
@@ -50,7 +49,6 @@ def check_writable(path):
 
 
 def _reason(folder, error):
-    """Return why a file could not be written. A trial file gives a clearer error than NetCDF."""
     trial = folder / f".trial-{os.getpid()}"
     try:
         with trial.open("wb") as file:

@@ -18,17 +18,16 @@ from impact_damper.design.task import labelled
 from impact_damper.model.machine import TunedAbsorber
 from impact_damper.theory.roots import polynomial_roots
 
-# An absorber is tuned for POINTS frequencies around the resonance, up to REACH widths of the
-# resonance peak away from it. If a band is given, those outside the band are left out, and POINTS
-# frequencies in the band are added.
+# An absorber is tuned to lower the largest displacement at POINTS frequencies, which lie up to
+# REACH widths of the resonance peak from the resonance. If a band is given, frequencies outside the
+# band are left out, and POINTS evenly spaced frequencies in the band are added.
 POINTS, REACH = 1001, 8.0
 # The optimizer `differential_evolution` searches ln(absorber frequency/machine frequency) within
-# the bounds TUNINGS, and ln(damping ratio of the absorber) within the bounds DAMPINGS. TOLERANCE
-# (relative) and SEED are arguments of the optimizer.
+# the bounds TUNINGS, and ln(damping ratio of the absorber) within the bounds DAMPINGS. TOLERANCE is
+# the optimizer's relative tolerance, SEED the seed of its random numbers.
 TUNINGS, DAMPINGS, TOLERANCE, SEED = (-1.5, 1.0), (-7.0, 0.7), 1e-7, 1995
 COMPETITORS = ("bare", "tuned", "own")
-# Factors by which the machine's excitation is multiplied, from 1/4 to 4.
-SHARES = tuple(2.0 ** (step / 2) for step in range(-4, 5))
+SHARES = tuple(2.0 ** (step / 2) for step in range(-4, 5))  # factors of the excitation, 1/4 to 4
 DETUNINGS = (-0.1, 0.0, 0.1)
 
 
@@ -37,10 +36,10 @@ def absorber_responses(
 ):
     """Return a dataset of displacements (mm) without absorber and with one or two absorbers.
 
-    One absorber has the mass `mass` (kg) and is tuned over `band` (Hz). The other, `own`, may be
-    None. The excitation is multiplied by each number in `force_shares`. `detunings` are relative
-    changes of an absorber's stiffness. If the machine has no linear stiffness, no absorber can be
-    tuned, and its displacements are NaN.
+    One absorber has the mass `mass` (kg) and is tuned over `band` (Hz). The second absorber, `own`,
+    may be None. `frequencies` are in Hz. The excitation is multiplied by each number in
+    `force_shares`. `detunings` are relative changes of the stiffness of an absorber. For a machine
+    without linear stiffness, displacements with the tuned absorber are NaN.
     """
     names = COMPETITORS[: 2 if own is None else 3]
     sizes = np.full((len(names), len(detunings), len(frequencies), len(force_shares)), np.nan)
@@ -71,7 +70,7 @@ def absorber_responses(
 
 @cache
 def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
-    """Return the absorber with the lowest peak over `band` (Hz) if there is no cubic spring."""
+    """Return the absorber with the lowest peak over `band` (Hz) if the spring is linear."""
     ratio, linear = mass / machine.mass, replace(machine, cubic_stiffness=0.0)
     frequencies = _frequencies(linear, ratio, band)
 
@@ -84,7 +83,7 @@ def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
         stiffness, force = _dynamics(linear, absorber(*logs), frequencies)
         return np.max(force / np.abs(stiffness))
 
-    # The largest displacement has a kink at the optimum. Methods that use slopes stop too early.
+    # At the optimum `highest` has a kink. Optimizers that use slopes stop before it.
     given = {"rng": SEED, "tol": TOLERANCE, "atol": 0, "polish": False}
     return absorber(*differential_evolution(highest, (TUNINGS, DAMPINGS), **given).x)
 
@@ -101,7 +100,7 @@ def _frequencies(machine, ratio, band):
 
 
 def response(machine, absorber, frequencies, force_shares=(1.0,)) -> np.ndarray:
-    """Return amplitudes (m) for each frequency (Hz) and each factor in `force_shares`.
+    """Return the machine's amplitude (m) at each frequency (Hz) for each factor of the excitation.
 
     Without a cubic spring the amplitudes are exact. With a cubic spring they are the largest stable
     solutions of the harmonic balance, or infinite if none lies below the barrier of the spring.
@@ -116,7 +115,6 @@ def response(machine, absorber, frequencies, force_shares=(1.0,)) -> np.ndarray:
 
 
 def _dynamics(machine, absorber, frequencies):
-    """Return complex stiffness and force amplitude at each frequency (Hz), both dimensionless."""
     scales, oscillator = machine.scales, machine.oscillator()
     w = scales.from_si(frequencies, "frequency")
     force = oscillator.force + oscillator.unbalance * w**2
@@ -132,7 +130,7 @@ def _dynamics(machine, absorber, frequencies):
 
 
 def _amplitude(oscillator, stiffness, force):
-    """Return the largest stable a with |stiffness + (3/4) k3 a^2| a = force, infinity if none."""
+    """Return the largest stable solution a of |stiffness + (3/4) k3 a^2| a = force, or infinity."""
     hardening = oscillator.hardening
     if hardening == 0:
         return force / abs(stiffness)
@@ -141,6 +139,5 @@ def _amplitude(oscillator, stiffness, force):
     barrier = math.inf
     if hardening < 0:
         barrier = 0.75 * oscillator.linear_frequency**2 / -hardening
-    # If there are three solutions, the middle one is unstable.
-    stable = squares[::2][squares[::2] < barrier]
+    stable = squares[::2][squares[::2] < barrier]  # of three solutions the middle one is unstable
     return math.sqrt(stable[-1]) if len(stable) else math.inf

@@ -19,12 +19,9 @@ from impact_damper.design.task import NOMINAL, VARIED, labelled
 from impact_damper.design.transients import transients
 from impact_damper.motions.strobe_map import strobe_time
 
-# Number of evenly spaced frequencies of `force_map`. `Task.few` adds further frequencies.
-FREQUENCIES = 5
-# Loose mass of the heavier damper, divided by the loose mass of the damper in the task.
-HEAVIER = 2.0
-# Number of cycles in which the contact force is measured if the motion is not periodic.
-WATCHED = 100
+FREQUENCIES = 5  # evenly spaced frequencies of `force_map`, to which `Task.few` adds others
+HEAVIER = 2.0  # loose mass of the heavier damper, divided by the loose mass of the damper
+WATCHED = 100  # number of cycles in which the contact force is measured without a period
 
 
 def force_map(task, decision, progress=None) -> xr.Dataset:
@@ -78,7 +75,7 @@ def _force(task, gap, frequency):
 
 
 def competitors(task, decision, progress=None) -> xr.Dataset:
-    """Return displacements without absorber, with a tuned absorber, and with `task.absorber`."""
+    """Return the machine's displacements without, with a tuned, and with the given absorber."""
     band = task.absorber_band
     found = absorber_responses(task.machine, task.mass, task.grid, band=band, own=task.absorber)
     return found.assign_coords(labelled({}, frequency=task.grid).coords)

@@ -1,8 +1,9 @@
-"""Motions from random starts, and the displacement below which a share of all motions stays.
+"""Motions from random starts in each cell of a design, and bounds of their displacements.
 
-A cell is a gap, a forcing frequency, and a factor for each value that may deviate from its nominal
-value. A regime is a group of unsettled motions of one cell with similar largest displacements.
-docs/explanation/promise.md says how the displacement of a regime is extrapolated.
+A cell is a gap, a forcing frequency and a set of factors. A factor multiplies a nominal value, such
+as the restitution. A regime is a group of motions of one cell that have not settled and have
+similar largest displacements. docs/explanation/promise.md says how their displacement in a longer
+run is extrapolated.
 """
 
 from dataclasses import dataclass, fields
@@ -17,36 +18,40 @@ from impact_damper.motions.records import AT_REST, DRIFTING, NON_COLLIDING, SETT
 from impact_damper.motions.start_states import random_starts
 from impact_damper.motions.steady import run_chunks
 
-# A motion is not continued after these outcomes: LASTING in its first run, KEPT in later runs.
-LASTING = (SETTLED, NON_COLLIDING, AT_REST, DRIFTING)
-KEPT = (SETTLED, NON_COLLIDING, AT_REST)
-# Purposes for which starts are drawn. The seed of the starts depends on the purpose. The search for
-# a gap and the confirmation of the gap therefore use different starts.
+# A motion that ends with one of these outcomes is not run further.
+LASTING = (SETTLED, NON_COLLIDING, AT_REST, DRIFTING)  # outcomes of the first run of a motion
+KEPT = (SETTLED, NON_COLLIDING, AT_REST)  # outcomes of later runs of a motion
+# Purposes for which random starts are drawn. The seed depends on the purpose. The search for a gap
+# and the confirmation of this gap therefore use different starts.
 STREAMS = "search compared confirmed orbit forces masses repeated shocks searched_again".split()
-# A thread draws the starts of DRAWN cells at a time, and runs FOLLOWED motions at a time.
-# `Motions.largest` continues up to TOGETHER regimes, then computes the bounds of all cells again.
+# DRAWN: number of cells for which a thread draws random starts at a time.
+# FOLLOWED: number of motions that a thread integrates at a time.
+# TOGETHER: `Motions.largest` runs motions of up to TOGETHER cells before it computes bounds again.
 DRAWN, FOLLOWED, TOGETHER = 4, 64, 8
-# Unsettled motions are sorted by displacement. Neighbours with a ratio up to APART form a regime.
+# A regime is a group of motions of one cell. The motions that have not settled are sorted by their
+# largest displacements. Two neighbours belong to one regime if their ratio is at most APART.
 APART = 1.3
-# A block peak is the largest displacement of a motion in BLOCK cycles. `return_level` extrapolates
-# the TAIL largest block peaks to the displacement that is exceeded once in HORIZON cycles.
+# A block peak is the largest displacement of a motion in a block of BLOCK forcing cycles.
+# `return_level` computes from the TAIL largest block peaks the displacement that is exceeded once
+# in HORIZON cycles.
 BLOCK, TAIL, HORIZON = 50, 50, 100_000
-# The cycles of all motions of a regime are added up. The displacement is extrapolated if the sum is
-# POOLED or more. A regime is not run further if the sum is MOST_POOLED or more.
+# A regime is a group of similar motions that have not settled. n is the number of forcing cycles
+# that its motions have run together. From n = POOLED on, the largest displacement of the regime is
+# extrapolated. From n = MOST_POOLED on, the regime is not run further.
 POOLED, MOST_POOLED = 25_000, 200_000
-# With fewer than POOLED cycles the displacement is not extrapolated. It is raised by the fraction
-# MISSING for each time that the number of cycles must be doubled to reach POOLED.
+# If the motions of a regime have run n < POOLED cycles together, their largest displacement is not
+# extrapolated, but multiplied by 1 + MISSING x max(1, log2(POOLED/n)).
 MISSING = 0.03
-# A run has QUARTERS parts, each with a largest displacement. If these differ at most by the
-# fraction STEADY, nothing is extrapolated. To compare gaps, ROUGH is used instead of STEADY.
-# SLACK: largest fraction by which a settled motion exceeds the displacement of its orbit.
+# The run of a regime is divided into QUARTERS equal parts. Its displacement is not extrapolated if
+# the largest displacements in the parts differ by at most the fraction STEADY. If displacements are
+# only used to compare gaps, the limit is ROUGH instead of STEADY.
+# The largest displacement of a settled motion is multiplied by 1 + SLACK.
 QUARTERS, STEADY, ROUGH, SLACK = 4, 0.002, 0.01, 0.001
-# Before a regime is run further, its motions get this number of cycles to settle.
-CHECKED = 100
+CHECKED = 100  # number of cycles that motions get to settle, each time before they are run further
 
 
 class Cell(NamedTuple):
-    """A gap (m), a forcing frequency (Hz), and a factor for each value named in VARIED."""
+    """A gap (m), a forcing frequency (Hz), and factors for the nominal values in `task.VARIED`."""
 
     gap: float
     frequency: float
@@ -54,10 +59,9 @@ class Cell(NamedTuple):
 
 
 def draw_starts(task, cells, count, stream) -> np.ndarray:
-    """Return `count` random starts for each cell, shape (cells, count, 4).
+    """Return `count` random starts for each of `cells`, shape (cells, count, 4).
 
-    The tuple `stream` sets the seed. Its first entry is a name in STREAMS. Numbers follow if the
-    same name is used several times.
+    `stream` is a tuple: a name in STREAMS, then integers. Each tuple gives different starts.
     """
     states, stop = np.empty((len(cells), count, 4)), np.zeros(1, bool)
     name, *turn = stream
@@ -75,24 +79,25 @@ def draw_starts(task, cells, count, stream) -> np.ndarray:
 
 @dataclass
 class Motions:
-    """Motions from n starts at each of m cells. Displacements are dimensionless.
+    """Motions from n random starts in each of m cells. Displacements are dimensionless.
 
     Attributes
     ----------
     parameters : array, shape (m, packed.COUNT)
     records : array of records.MOTION, shape (m, n)
-        Results of the first run, which ends when the motion settles or is stopped.
+        Result of each motion's first run. This run ends when the motion settles, or at a limit.
     states : array, shape (m, n, 4)
-        States of the motions at their last strobe. The strobe is a fixed phase of the forcing.
+        State of each motion at its last strobe. The strobe is a fixed phase of the forcing.
     settled : array of bool, shape (m, n)
-        True if the motion is not run on: its outcome is in LASTING or KEPT, or it has escaped.
+        True for a motion that is not run further, by its outcome (see LASTING, KEPT) or escape.
     peaks : array, shape (m, n)
-        Largest displacement of the motion so far; infinite after an escape.
+        Largest displacement of each motion so far; infinite after an escape.
     early : array, shape (m, n, QUARTERS)
-        Largest displacement in each quarter of the `Settling.watched` cycles after the first run.
-        The entries of a settled motion are 0.
+        After the first run, motions that have not settled run `task.effort.settling.watched`
+        cycles. Largest displacement in each quarter of these cycles; 0 for settled motions.
     blocks : array of arrays, shape (m,)
-        Block peaks (see BLOCK) in each cell, shape (n, blocks). A block that was not run has NaN.
+        For each cell an array of block peaks (see BLOCK), shape (n, blocks). The entry is NaN if a
+        motion was not run in a block.
     """
 
     task: object
@@ -105,7 +110,7 @@ class Motions:
     blocks: np.ndarray
 
     def regimes(self, k) -> list:
-        """Return the regimes of cell k, each as an array with the indices of its motions."""
+        """Return the regimes of cell k (see APART), each as an array of indices of motions."""
         places = np.flatnonzero(~self.settled[k])
         order = places[np.argsort(self.peaks[k, places], kind="stable")]
         sizes = self.peaks[k, order]
@@ -113,11 +118,12 @@ class Motions:
         return [regime for regime in found if len(regime)]
 
     def measured(self, k, regime, rough=False) -> tuple:
-        """Return the displacement of a regime of cell k, and two booleans: known, tested.
+        """Return the displacement of the motions of cell k in `regime` (indices), and two booleans.
 
-        A regime with a known displacement is not run further. The displacement is tested if no late
-        block peak exceeds what is extrapolated from early block peaks. `rough` is for comparing
-        gaps. The displacement is then an estimate, and no bound.
+        The displacement is a bound for a long run, or with `rough` an estimate. The first boolean
+        is True if the motions need not be run further. The second is True if the displacement is
+        steady or infinite, or if no block peak of the second half of the run exceeds the
+        displacement that is extrapolated from the first half.
         """
         record, peaks = self.peaks[k, regime].max(), self.blocks[k][regime]
         peaks = peaks[:, np.isfinite(peaks).any(axis=0)]
@@ -140,7 +146,7 @@ class Motions:
         return return_level(peaks), tested or pooled >= MOST_POOLED, tested
 
     def numbers(self, k, rough=False) -> tuple:
-        """Return the displacement of each motion of cell k, and a boolean array: True if known."""
+        """Return two arrays over the motions of cell k: displacement, and whether it is final."""
         sizes, known = (1 + SLACK) * self.peaks[k], self.settled[k].copy()
         for regime in self.regimes(k):
             sizes[regime], known[regime], _ = self.measured(k, regime, rough)
@@ -149,8 +155,9 @@ class Motions:
     def bounds(self, rank) -> tuple:
         """Return three arrays with an entry for each cell.
 
-        The first holds the `rank`-th largest displacement, the second the index of the start that
-        led to it. The third is 1 if this displacement is known, otherwise 0.
+        The first holds the `rank`-th largest displacement of all motions in the cell, the second
+        the index of the motion with this displacement. The third is 1 if the displacement is final,
+        or 0 if the motion must be run further.
         """
         found = np.empty(len(self.peaks)), *np.empty((2, len(self.peaks)), int)
         for k in range(len(self.peaks)):
@@ -160,16 +167,17 @@ class Motions:
         return found
 
     def grows(self, k) -> bool:
-        """Return whether a regime of cell k still moves further after MOST_POOLED cycles."""
+        """Return whether motions of cell k still reach new peaks after MOST_POOLED cycles."""
         results = [self.measured(k, regime) for regime in self.regimes(k)]
         return any(known and not tested for _, known, tested in results)
 
     def largest(self, rank, least=0.0, left_out=()) -> np.ndarray:
-        """Run motions until the largest bound of all cells is known. Return the bounds.
+        """Run motions until the largest of the bounds of all cells is final. Return all bounds.
 
-        The bound of a cell is the `rank`-th largest displacement of its motions. In a cell that has
-        not been run long enough, the bound is an estimate. The cell is run further if the estimate
-        exceeds `least` and all known bounds. Cells with indices in `left_out` are never run.
+        The bound of a cell is the `rank`-th largest displacement of its motions. As long as the
+        motion with this displacement must be run further, the bound is an estimate. Such a motion
+        is run if the estimate exceeds `least` and all final bounds. Cells with indices in
+        `left_out` are not run.
         """
         while True:
             bounds, places, known = self.bounds(rank)
@@ -183,10 +191,10 @@ class Motions:
                 self.follow(k, next(each for each in self.regimes(k) if places[k] in each))
 
     def follow(self, k, regime) -> None:
-        """Run a regime of cell k until its number of cycles has doubled.
+        """Run the motions of cell k in `regime` (indices) until their number of cycles has doubled.
 
-        The first call runs POOLED/2 cycles or more, and replaces the displacements of earlier
-        cycles, because these may be transients.
+        The first call runs the motions for at least POOLED/2 cycles together. It discards their
+        displacements in earlier cycles, which may belong to transients.
         """
         loud = regime[~self._settle(k, regime)]
         if not len(loud):
@@ -228,7 +236,7 @@ class Motions:
 
 
 def run(task, cells, count, stream, progress=None) -> Motions:
-    """Return motions from `count` random starts in each cell, after their first run."""
+    """Return `Motions` from random starts, `count` in each cell (`stream`: see `draw_starts`)."""
     starts = draw_starts(task, cells, count, stream)
     parameters = np.array([task.packed(*cell) for cell in cells])
     rows, effort = np.repeat(parameters, count, axis=0), task.effort
@@ -261,8 +269,9 @@ def run(task, cells, count, stream, progress=None) -> Motions:
 def peaks_of_blocks(task, parameters, states, number, cycles) -> np.ndarray:
     """Return the largest displacement of each motion in each block, shape (motions, number).
 
-    A motion is run for `number` blocks of `cycles` forcing cycles. Each block begins at a strobe.
-    The final states are written into `states`. After an escape, displacements are infinite.
+    Motion i begins at a strobe (a fixed phase of the forcing) with states[i], and has the packed
+    parameters in parameters[i]. It runs for `number` blocks of `cycles` forcing cycles. The states
+    at the end are written into `states`. After an escape, displacements are infinite.
     """
     peaks = np.zeros((number, len(states)))
 
@@ -277,12 +286,12 @@ def peaks_of_blocks(task, parameters, states, number, cycles) -> np.ndarray:
 
 
 def return_level(peaks) -> float:
-    """Return the displacement that is exceeded once in HORIZON cycles, from block peaks.
+    """Return the displacement that is exceeded once in HORIZON cycles, or the largest of `peaks`.
 
-    Excesses of peaks over a high level are assumed to be distributed exponentially (S. Coles, An
-    Introduction to Statistical Modeling of Extreme Values, 2001, chapter 4). A bounded motion has
-    fewer large peaks than this distribution, so the result is too large rather than too small. It
-    is at least the largest block peak.
+    `peaks` are largest displacements in blocks of BLOCK cycles. The amounts by which peaks exceed a
+    high level are assumed to be distributed exponentially (S. Coles, An Introduction to Statistical
+    Modeling of Extreme Values, 2001, chapter 4). A motion is bounded, and has fewer large peaks
+    than this distribution. The result is therefore too large rather than too small.
     """
     peaks = np.sort(peaks[np.isfinite(peaks)])
     tops = peaks[-TAIL - 1 :]

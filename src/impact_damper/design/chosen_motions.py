@@ -1,4 +1,4 @@
-"""Largest motion at each frequency with the chosen gap, and its costs: impacts, forces, losses."""
+"""The largest motion with the chosen gap at each frequency, and its impacts, forces and losses."""
 
 from dataclasses import replace
 
@@ -48,11 +48,12 @@ def response_and_costs(task, decision, progress=None) -> xr.Dataset:
 
 
 def reached_motions(task, choice, response) -> xr.Dataset:
-    """Return a dataset of the largest motion reached at each frequency, with its costs.
+    """Return a dataset: displacement, impacts and forces of the largest motion at each frequency.
 
-    A motion is reached if a random start leads to it. A motion with contacts is also reached if a
-    placed start leads to it (see `motions.start_states`). `untouched_displacement` is the largest
-    displacement of all motions without contacts to which only placed starts lead.
+    The largest motion is sought among motions in `response` to which a random start leads, and
+    motions with contacts to which a placed start leads (see `motions.start_states`).
+    `untouched_displacement` is the largest displacement of all motions without contacts to which
+    only placed starts lead.
     """
     sizes = response["maximum_displacement"].values
     placed = response["origin"].values == flag("origin", "placed_start")

@@ -14,10 +14,12 @@ from impact_damper.design.promise import Promise, factor_sets
 from impact_damper.design.search import score, search, search_around
 from impact_damper.design.task import NOMINAL, NUMERICAL, SIDES, VARIED, Task, labelled
 
-# Up to ROUNDS gaps are run with new starts. The rounds end early if the search chooses a gap again,
-# or if the least promised displacement is at most CONFIRMED x the one that the search expects.
+# In up to ROUNDS rounds the best gap on the curve of the search is run with new starts. The rounds
+# end early if this gap was run in an earlier round, or if the least displacement promised in any
+# round is at most CONFIRMED x the displacement of the best gap on the curve.
 CONFIRMED, ROUNDS = 1.05, 4
-# Nearby gaps are run again if bounds from new starts exceed SURPRISE x the result of the search.
+# New starts at a gap give bounds. If one of the bounds exceeds SURPRISE x the displacement that the
+# search found within the tolerance of the gap, nearby gaps are run again.
 SURPRISE = 1.1
 
 
@@ -29,7 +31,7 @@ class Tried(NamedTuple):
 
     @property
     def harmful(self) -> np.ndarray:
-        """Nominal and worst set of factors, for other gaps. The factor of the gap is 1 in both."""
+        """The nominal and the worst set of factors, with 1 as the factor of the gap in both."""
         worst = self.promise.sets[self.promise.worst[0]].copy()
         worst[0] = 1
         return np.unique([NOMINAL, worst], axis=0)
@@ -71,13 +73,13 @@ def evaluate_gap(task: Task, progress=None) -> xr.Dataset:
 
 
 def confirm(task, gap, turn, sets, progress=None) -> Tried:
-    """Return bounds at a gap (mm), from starts that calls with another `turn` do not use."""
+    """Return bounds at a gap (mm) from new random starts, which depend on the integer `turn`."""
     stream = "confirmed", turn
     return Tried(gap, Promise(task, 1e-3 * gap, sets, stream, progress=progress).refined())
 
 
 def learn(task, tried, turn, curve, progress=None) -> None:
-    """Put the bounds at a tried gap into `curve`. If they are large, run nearby gaps again."""
+    """Put the bounds at a tried gap into `curve`. If bounds surprise (SURPRISE), run near gaps."""
     gap, promise = tried.gap, tried.promise
     sizes, factors = promise.by_set(), promise.sets[:, 0]
     expected = curve.within(*np.array(task.gap_ends(gap))[:, None])[0]
@@ -89,7 +91,6 @@ def learn(task, tried, turn, curve, progress=None) -> None:
         k = int(np.argmax(np.where(factors == factor, sizes, -np.inf)))
         curve.put([gap * factor], [sizes[k]], [worst[k]], replace=True)
     if promise.size > SURPRISE * expected:
-        # The search missed a large motion, so nearby gaps are run again.
         reach = SURPRISE * factors.max()
         near = curve.gaps[(curve.gaps > gap / reach) & (curve.gaps < gap * reach)]
         given = np.unique(worst), starts_needed(task.share), ("compared", 100 + turn), progress
@@ -173,7 +174,7 @@ def conclude(task, found, curve, status) -> xr.Dataset:
 
 
 def rivals(task) -> xr.Dataset:
-    """Return the largest displacement with a tuned, a detuned and the given absorber, or NaN."""
+    """Return a dataset: largest displacement with a tuned, a detuned and the given absorber."""
     names = ("tuned_displacement", "detuned_displacement", "own_absorber_displacement")
     values = dict.fromkeys(names, np.nan)
     given = task.machine, task.mass, task.grid, [1.0]

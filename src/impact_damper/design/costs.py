@@ -18,9 +18,10 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 def measured_costs(p, y, begin, periods) -> dict:
     """Return a dictionary of the dimensionless costs of a motion over `periods` forcing cycles.
 
-    `y` is the state at the time `begin`. `impact_rate` and `impact_speed` include only contacts
-    that begin in these cycles. Accelerations are absolute. After an escape, rates, forces,
-    accelerations and powers are NaN. `absolute_displacement` is NaN unless the base moves.
+    `p` holds the packed parameters. `y` is the state at the time `begin`. `impact_rate` and
+    `impact_speed` include only contacts that begin in these cycles. Accelerations are absolute. If
+    the motion escapes, rates, forces, accelerations and powers are NaN. `absolute_displacement` is
+    NaN unless the base moves.
     """
     time = periods * 2 * np.pi / p[FREQUENCY]
     panels = sampled(p, y, begin, begin + time, POLISH_TOLERANCE)
@@ -48,8 +49,8 @@ def measured_costs(p, y, begin, periods) -> dict:
 def pressure_costs(machine, damper, contact, speed) -> tuple[float, str]:
     """Return the pressure (Pa) of an elastic impact, and whether the material yields under it.
 
-    The second value is "yes", "no" or "unknown". `contact` is a HertzContact, or None if unknown.
-    `speed` is the largest speed of impact, m/s.
+    The second value is "yes", "no" or "unknown". `contact` is a HertzContact, or None if shape and
+    material of the bodies are unknown. `speed` is the largest speed of impact, m/s.
     """
     if contact is None:
         return np.nan, "unknown"

@@ -182,7 +182,7 @@ def evaluate_damper(
 def answer(task, decide, title, folder, progress) -> xr.Dataset:
     """Return the result of a task: the decision, computed by `decide`, and additional datasets.
 
-    If an additional dataset fails with a numerical error, it is left out and flagged.
+    A dataset whose computation fails with a numerical error is left out, see `addition_status`.
     """
     step = Steps(folder, progress, task.describe()).step
     decision = step("decision", decide, task)

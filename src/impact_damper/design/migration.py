@@ -38,16 +38,18 @@ def migration(
     """Find gaps and frequencies at which a release of the damper leads to the small free motion.
 
     During the large free motion the damper is switched on at a random phase, with the loose mass at
-    a random place. The damper is switched off at a random phase after the motion has settled, or
-    after `longest_hold` cycles. `gaps` are in m. By default they are `effort.candidates` gaps in
-    the range that `design_damper` searches. At each gap and frequency there are `effort.starts`
-    releases. `progress` is the title of a progress bar. For other arguments see `design_damper`.
+    a random place. The damper is switched off (released) at a random phase after the motion has
+    settled, or after `longest_hold` cycles. `gaps` are in m. By default they are
+    `effort.candidates` gaps in the range that `design_damper` searches. `effort.starts` releases
+    are run at each gap and frequency. `progress` is the title of a progress bar. For other
+    arguments see `design_damper`.
 
-    The time (s) of a release runs from switching on until the small motion has settled. It is
-    infinite without success. The dataset has for each gap and frequency: share of releases that
-    succeed, median time, `migration_bound`. With 95 % confidence the fraction `share` of all
-    releases takes at most this bound. From the `sure_frequency` of a gap on, the bound is finite
-    wherever there are two free motions. `migration_gap` is the gap with the lowest
+    A release succeeds if the small motion is reached. Its time (s) runs from switching the damper
+    on until the small motion has settled; without success the time is infinite. The dataset has for
+    each gap and frequency the share of releases that succeed, the median time, and a bound,
+    `migration_bound`. With 95 % confidence at least the fraction `share` of all releases takes at
+    most this time. `sure_frequency` of a gap is the lowest frequency from which on the bound is
+    finite, wherever there are two free motions. `migration_gap` is the gap with the lowest
     `sure_frequency`. ValueError is raised if each frequency has only one free motion.
     """
     effort = Effort() if effort is None else effort
@@ -89,7 +91,6 @@ def migration(
 
 
 def _case(task, gap, frequency):
-    """Return a case for releases at a frequency (Hz), or None if it has only one free motion."""
     oscillator, damper, turning = task.system(gap, frequency)
     try:
         return release_case(oscillator, damper, turning, task.effort.settling)
@@ -98,7 +99,7 @@ def _case(task, gap, frequency):
 
 
 def release_time(case, seed, longest_hold, settling, stop) -> float:
-    """Return the time from switching the damper on to the small motion, in cycles, or infinity."""
+    """Return the cycles from switching the damper on until the small motion settles, or inf."""
     draws = np.random.default_rng(seed).random((1, 3))
     _, log = control(case, draws, longest_hold, settling, 0, None, stop)
     reached = log["destination"][0] == FREE_MOTION["non_resonance"]

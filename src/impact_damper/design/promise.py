@@ -9,19 +9,18 @@ from impact_damper.data.shares import DOUBT, bounding_rank
 from impact_damper.design.cells import STREAMS, Cell, run
 from impact_damper.design.task import VARIED
 
-# Largest number of corners. In a corner each value is at one end of its tolerance.
-CORNERS = 8
-# The peak of a set of factors is the largest of its bounds at all frequencies.
-# Up to SPLITS rounds add frequencies beside peaks that are at least NEAR x the largest peak.
-# A finite peak is known if the last round raised it at most by the fraction PEAK, and if a parabola
-# through the peak and its two neighbours is higher than the peak by at most this fraction.
+CORNERS = 8  # largest number of corners. In a corner each value is at one end of its tolerance.
+# A set of factors has a bound of the displacement at each frequency. The largest of these bounds is
+# the peak of the set. Up to SPLITS rounds add frequencies on both sides of each peak that is at
+# least NEAR x the largest peak. A finite peak is known if two conditions hold: the last round
+# raised the peak by at most the fraction PEAK, and a parabola through the peak and the bounds on
+# both sides exceeds the peak by at most the fraction PEAK.
 NEAR, PEAK, SPLITS = 0.9, 0.01, 4
-# A set of factors that is not nominal is first run at half of the frequencies, but at least FEWEST.
-FEWEST = 9
+FEWEST = 9  # least number of frequencies at which sets of factors other than nominal are first run
 # A cell has rare motions if its bound exceeds RARE x the largest usual displacement of all cells.
-# Cells with rare motions are run again with MORE x as many starts, in groups of SOME cells. The
-# cells with the largest bounds come first. After a group whose least old bound was b, the bounds of
-# the cells that remain are below b. If a new bound exceeds KEPT x b, they are not run again.
+# Such cells are run again with MORE x as many starts, SOME cells at a time, the cells with the
+# largest bounds first. b is the least bound that these SOME cells had before. If one of their new
+# bounds exceeds KEPT x b, the remaining cells, whose bounds are at most b, are not run again.
 RARE, MORE, SOME, KEPT = 1.2, 6, 8, 0.95
 
 
@@ -31,15 +30,16 @@ class Promise:
     Attributes
     ----------
     sets : array, shape (s, len(VARIED))
-        One row for each set: factors by which nominal values are multiplied.
+        Each row is a set of factors, by which the nominal values in VARIED are multiplied.
     cells : list of tuple
-        Index of the set and frequency (Hz), for each cell in `motions`.
+        For each cell the index of its row in `sets`, and its frequency (Hz).
     bounds : array, shape (cells,)
-        Displacement (mm) below which at least the fraction `task.share` of all motions stays.
+        For each cell the displacement (mm) below which at least the fraction `task.share` of all
+        its motions stays, with 95 % confidence.
     peak_known : bool
-        Whether the largest peak, and peaks of nearly the same height, are known (see PEAK).
+        Whether the largest bounds over the frequency are known well enough (see PEAK).
     grows : bool
-        Whether a displacement in the worst cell still grows after many cycles (`Motions.grows`).
+        Whether motions in the cell with the largest bound still reach new peaks after a long run.
     """
 
     def __init__(self, task, gap, sets, stream, count=None, frequencies=None, progress=None):
@@ -55,7 +55,7 @@ class Promise:
         self.add([(0, f) for f in full] + deviating)
 
     def add(self, cells) -> None:
-        """Run further cells, and compute the bounds of all cells."""
+        """Run motions in further `cells`, and compute the bounds of all cells again."""
         stream = (*self.stream, len(self.cells))
         motions = run(self.task, self._made(cells), self.count, stream, self.progress)
         self.motions = motions if self.motions is None else self.motions.join(motions)
@@ -72,7 +72,6 @@ class Promise:
         return [Cell(self.gap, f, tuple(self.sets[k])) for k, f in cells]
 
     def _repeat_rare(self) -> None:
-        """Run cells with rare motions again, with more starts (see RARE)."""
         allowed = int(2 * (1 - self.task.share) * self.count) + 1
         usual, bounds = (self.motions.bounds(rank)[0] for rank in (allowed, self.rank))
         for place, bound in self.again.items():
@@ -80,7 +79,8 @@ class Promise:
         rare = np.flatnonzero(bounds > RARE * np.maximum(usual, usual.max()))
         rare = [place for place in rare[np.argsort(-bounds[rare])] if place not in self.again]
         total = MORE * self.count
-        # With a probability of at least 1 - DOUBT both the old and the new bound of a cell hold.
+        # A cell that is run again has two bounds. The probability that one of them is wrong is at
+        # most DOUBT: `used` for the first bound, the rest for the second.
         used = bdtr(self.rank - 1, self.count, 1 - self.task.share)
         rank = bounding_rank(self.task.share, total, DOUBT - used)
         while rare and rank:
@@ -95,7 +95,7 @@ class Promise:
                 return
 
     def refined(self) -> "Promise":
-        """Add frequencies beside peaks until the peaks are known (see PEAK). Return `self`."""
+        """Run frequencies beside the largest bounds until these are known (see PEAK)."""
         before = {}
         for _ in range(SPLITS):
             cells = []
@@ -111,12 +111,12 @@ class Promise:
         return self
 
     def by_set(self) -> np.ndarray:
-        """Return the peak of each set of factors: its largest bound (mm) over all frequencies."""
+        """Return the largest bound (mm) over all frequencies, for each row of `sets`."""
         owners = np.array([k for k, _ in self.cells])
         return np.array([self.bounds[owners == k].max() for k in range(len(self.sets))])
 
     def over_frequency(self, k) -> tuple:
-        """Return ascending frequencies (Hz), and the bounds (mm) at them for set k of factors."""
+        """Return the frequencies (Hz) at which row k of `sets` was run, and the bounds (mm)."""
         places = [place for place, cell in enumerate(self.cells) if cell[0] == k]
         frequencies = np.array([self.cells[place][1] for place in places])
         order = np.argsort(frequencies)
@@ -129,14 +129,14 @@ class Promise:
 
     @property
     def worst(self) -> tuple:
-        """Cell with the largest bound: index of the set of factors, and frequency (Hz)."""
+        """Cell with the largest bound, as a tuple: row in `sets`, frequency (Hz)."""
         return self.cells[int(np.argmax(self.bounds))]
 
 
 def is_peak_known(frequencies, bounds, before) -> bool:
-    """Return whether the peak, the largest of `bounds`, is known (see PEAK).
+    """Return whether the largest of `bounds` over `frequencies` is known well enough (see PEAK).
 
-    `before` is the peak before the last frequencies were added, or 0 if none were added.
+    `before` is the largest bound before the last frequencies were added, or 0 in the first call.
     """
     k = int(np.argmax(bounds))
     if np.isinf(bounds[k]):
@@ -151,7 +151,7 @@ def is_peak_known(frequencies, bounds, before) -> bool:
 
 
 def beside_peak(frequencies, bounds) -> list:
-    """Return the middles of the frequency intervals on both sides of the largest bound."""
+    """Return the middles of the intervals on both sides of the frequency of the largest bound."""
     k = int(np.argmax(bounds))
     ends = frequencies[max(k - 1, 0) : k + 2]
     return [float(middle) for middle in (ends[1:] + ends[:-1]) / 2]
@@ -160,8 +160,8 @@ def beside_peak(frequencies, bounds) -> list:
 def factor_sets(task, gap) -> np.ndarray:
     """Return the sets of factors to be run at a gap (mm), one in each row.
 
-    The first set is nominal. In the next sets only the gap deviates, to one end of its tolerance.
-    The remaining sets are corners (see CORNERS).
+    In the first set all factors are 1. In the next two sets only the gap is at an end of its
+    tolerance. The remaining sets are corners (see CORNERS). A set that would repeat is left out.
     """
     widths = task.deviations(gap)
     signs = [(-1, 1) if width else (0,) for width in widths]
@@ -178,7 +178,7 @@ def factor_sets(task, gap) -> np.ndarray:
 
 
 def other_sets(task, gap) -> np.ndarray:
-    """Return the rows of `factor_sets`, but with 1 as the factor of the gap. Rows do not repeat."""
+    """Return `factor_sets` with 1 as the factor of the gap in each row, without repeated rows."""
     rows = factor_sets(task, gap)
     rows[:, 0] = 1
     return np.unique(rows, axis=0)

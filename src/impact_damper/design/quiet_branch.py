@@ -13,12 +13,11 @@ from impact_damper.orbits.branches import follow_branch
 from impact_damper.orbits.orbit import Orbit
 from impact_damper.orbits.shooting import find_orbit
 
-# Least and greatest gap of the branch, divided by the gap of the design.
-GAP_SPAN = (0.4, 2.0)
+GAP_SPAN = (0.4, 2.0)  # least and greatest gap of the branch, divided by the gap of the design
 
 
 def follow_quiet_orbit(task, choice, progress=None) -> xr.Dataset:
-    """Return a dataset of the quiet orbit over the gap, at the `branch_frequency` in `choice`."""
+    """Return a dataset of the quiet orbit over the gap, at the frequency `branch_frequency`."""
     gap, frequency = float(choice["design_gap"]), float(choice["branch_frequency"])
     orbit = quiet_orbit(task, gap, frequency)
     cliff = float(choice["lost_gap"][1]) if decode(choice["lost_kind"])[1] == "jump" else np.inf
@@ -38,7 +37,7 @@ def quiet_orbit(task, gap, frequency) -> Orbit | None:
 
 
 def over_gap(task, gap, frequency, orbit, cliff) -> xr.Dataset:
-    """Return a dataset of a quiet orbit over the gap. `cliff` (mm) is a gap, infinite if none."""
+    """Return the branch of `orbit` over the gap. Compare its best gap with the gap `cliff` (mm)."""
     gaps = sizes = moduli = np.empty(0)
     if orbit is not None:
         oscillator, damper, turning = task.system(1e-3 * gap, frequency)

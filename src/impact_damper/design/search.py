@@ -1,7 +1,8 @@
-"""The search for the gap: a curve of displacements over the gap, finer at small displacements.
+"""The search for the gap with the smallest displacement.
 
-Later runs, near the best gaps, use more starts and frequencies, and other values than the gap
-deviate too. The value of a nominal gap is the largest displacement at all gaps in its tolerance.
+The first search runs gaps over the whole range, with nominal values of all other parameters. Later
+rounds run gaps near the best ones, with more starts and frequencies, and with other parameters at
+the ends of their tolerances. The results form a curve of the largest displacement over the gap.
 """
 
 from typing import NamedTuple
@@ -13,32 +14,38 @@ from impact_damper.design.cells import STREAMS, Cell, run
 from impact_damper.design.promise import MORE, other_sets
 from impact_damper.design.task import NOMINAL, Task
 
-# The first search computes up to GAPS gaps at the frequencies `Task.few(FREQUENCIES)`, with STARTS
+# The first search runs up to GAPS gaps at the frequencies `Task.few(FREQUENCIES)`, with STARTS
 # random starts at each gap and frequency.
 GAPS, FREQUENCIES, STARTS = 80, 5, 10
-# Up to ROUNDS later rounds compute gaps near the best gaps, with CLOSE_STARTS starts in each cell.
-# Their frequencies are `Task.few(CLOSE_FREQUENCIES)` and the worst frequencies of earlier rounds.
+# After the first search come up to ROUNDS rounds, with CLOSE_STARTS random starts in each cell. The
+# frequencies of a round are `Task.few(CLOSE_FREQUENCIES)`, and those at which the largest
+# displacements at the best gaps have occurred so far.
 CLOSE_FREQUENCIES, CLOSE_STARTS, ROUNDS = 11, 24, 5
-# The worst displacement at a gap is computed again, with more starts, if it exceeds DOUBTED x the
-# largest usual displacement at this gap.
+# A gap has one cell for each frequency and set of factors. The cell with the largest displacement
+# is run again, with more starts, if this displacement exceeds DOUBTED x the largest usual
+# displacement of the gap's cells. About 10 % of a cell's motions exceed its usual displacement.
 DOUBTED = 1.1
-# Two neighbouring gaps have a jump between them if the ratio of their displacements exceeds JUMP.
-# The interval between two gaps a < b is split if log(b/a) > SMOOTH, or > FINE if there is a jump.
+# There is a jump between two neighbouring gaps if the ratio of their displacements exceeds JUMP.
+# The interval between neighbouring gaps a < b is split if log(b/a) > SMOOTH. If there is a jump
+# between a and b, the interval is split if log(b/a) > FINE.
 JUMP, SMOOTH, FINE = 1.3, 0.03, 0.004
-# The value of a nominal gap is the largest displacement within its tolerance. V is the least value.
-# A stretch of gaps with values up to CANDIDATE x V has a least value v of its own. Its gaps around
-# v with values up to LEVEL x v form a range. A range is good if v is at most ALIKE x V.
+# The value of a nominal gap is the largest displacement at all gaps within its tolerance.
+# V is the least value of all nominal gaps. A stretch is an interval of gaps with values up to
+# CANDIDATE x V. v is the least value in a stretch. A range is the interval around the gap of v in
+# which values are at most LEVEL x v. The range is good if v is at most ALIKE x V.
 CANDIDATE, ALIKE, LEVEL = 1.15, 1.04, 1.05
 NOMINAL_GAPS = 4001  # number of nominal gaps whose values are computed
-# A chosen gap is rounded to DIGITS significant digits. If this leads out of its range of good gaps,
-# it is rounded to more digits, but fewer than MOST_DIGITS.
+# The gap near the middle of a range is rounded to DIGITS significant digits. If the rounded gap
+# lies outside the range, the gap is rounded to more digits, but fewer than MOST_DIGITS.
 DIGITS, MOST_DIGITS = 3, 9
-# Displacement (mm) that stands for an infinite displacement.
-HUGE = 1e9
+HUGE = 1e9  # displacement (mm) that stands for an infinite displacement
 
 
 class Range(NamedTuple):
-    """A range of nominal gaps (mm), one `gap` in it, and `size`, its least displacement (mm)."""
+    """Nominal gaps from `low` to `high`, and one `gap` near the middle, mm.
+
+    Each gap has a largest displacement within its tolerance. `size` (mm) is the least of these.
+    """
 
     low: float
     high: float
@@ -47,7 +54,7 @@ class Range(NamedTuple):
 
 
 class Curve:
-    """Largest displacement (mm) at each of several gaps (mm), and its frequency (Hz)."""
+    """Several gaps (mm), each with its largest displacement (mm) and its worst frequency (Hz)."""
 
     def __init__(self, task: Task):
         self.task = task
@@ -56,10 +63,11 @@ class Curve:
         self.sets = [NOMINAL]  # sets of factors with the largest displacements near the best gaps
 
     def put(self, gaps, sizes, worst, *, close=True, replace=False) -> None:
-        """Add displacements `sizes` (mm) at `gaps` (mm), with their `worst` frequencies (Hz).
+        """Add displacements `sizes` (mm) at `gaps` (mm). They occur at frequencies `worst` (Hz).
 
-        If the curve has a displacement at a gap already, the larger one is kept. With `replace` the
-        new one is kept. `close` is False in the first search.
+        If the curve already has a displacement at a gap, the larger of both is kept, or with
+        `replace` the new one. `close` is True for gaps that need not be run again with more starts,
+        and False for gaps of the first search.
         """
         for gap, size, frequency in zip(gaps, np.minimum(sizes, HUGE), worst, strict=True):
             k = int(np.searchsorted(self.gaps, gap * (1 - 1e-9)))
@@ -74,9 +82,10 @@ class Curve:
                 self.close = np.insert(self.close, k, close)
 
     def within(self, lows, highs) -> np.ndarray:
-        """Return the largest displacement on the curve in each interval lows[i] to highs[i].
+        """Return the largest displacement (mm) between the gaps lows[i] and highs[i], for each i.
 
-        At the ends of an interval the curve is interpolated. At a jump the larger value counts.
+        At these two gaps the displacement is interpolated between neighbouring points of the curve.
+        If there is a jump between the points (see JUMP), the larger of their displacements counts.
         """
         logs, values = np.log(self.gaps), np.log(self.sizes)
         found = np.full(len(lows), -np.inf)
@@ -93,14 +102,14 @@ class Curve:
         return np.exp(np.maximum(found, np.where(inside, values, -np.inf).max(axis=1)))
 
     def nominal(self) -> tuple:
-        """Return many nominal gaps (mm), and the largest displacement in the tolerance of each."""
+        """Return many nominal gaps, and the largest displacement in the tolerance of each; mm."""
         share, width = self.task.gap_tolerance
         first, last = (self.gaps[0] + width) / (1 - share), (self.gaps[-1] - width) / (1 + share)
         gaps = np.geomspace(first, max(last, first), NOMINAL_GAPS)
         return gaps, self.within(*self.task.gap_ends(gaps))
 
     def ranges(self) -> list:
-        """Return ranges of nominal gaps with small displacements (see CANDIDATE)."""
+        """Return each `Range` of nominal gaps with small displacements (see CANDIDATE)."""
         gaps, values = self.nominal()
         found = []
         for first, after in runs_of_true(values <= CANDIDATE * values.min()):
@@ -112,17 +121,17 @@ class Curve:
         return found
 
     def choose(self) -> Range:
-        """Return the widest range of gaps with displacements near the smallest (see ALIKE)."""
+        """Return the widest of the ranges whose displacement is near the smallest (see ALIKE)."""
         ranges = self.ranges()
         best = min(each.size for each in ranges)
         good = [each for each in ranges if each.size <= ALIKE * best]
         return max(good, key=lambda each: each.high / each.low)
 
     def lost(self, gap, size) -> np.ndarray:
-        """Return the nearest lost gaps below and above `gap`, and the displacements at both.
+        """Return the lost gaps next to `gap` (row 0) and the displacements at them (row 1), in mm.
 
-        A gap is lost if it lies outside the tolerance of `gap` and has a displacement above `size`.
-        If no gap on one side is lost, both values of this side are NaN.
+        A gap is lost if it lies outside the tolerance of `gap` and its displacement exceeds `size`.
+        Column 0 is for smaller gaps, column 1 for larger gaps; NaN if there is no lost gap.
         """
         found = np.full((2, 2), np.nan)
         for side, end, step in zip((0, 1), self.task.gap_ends(gap), (-1, 1), strict=True):
@@ -132,10 +141,11 @@ class Curve:
         return found
 
     def worst_inside(self, gap) -> np.ndarray:
-        """Return `self.sets`, sets of factors, with (worst gap)/`gap` as the factor of the gap.
+        """Return sets of factors, one in a row, for the worst gap within the tolerance of `gap`.
 
-        The worst gap has the largest displacement within the tolerance of `gap`. The result has no
-        rows if the displacement at `gap`, or at an end of its tolerance, is at least as large.
+        The worst gap g is the one with the largest displacement on the curve. The sets are
+        `self.sets`, with g/`gap` as the factor of the gap. If the displacement at `gap` or at an
+        end of its tolerance is as large as at g, the result has no rows.
         """
         low, high = self.task.gap_ends(gap)
         inside = np.flatnonzero((self.gaps > low) & (self.gaps < high))
@@ -147,11 +157,11 @@ class Curve:
         return rows
 
     def critical(self) -> np.ndarray:
-        """Return the worst frequencies (Hz) of all gaps with displacements near the smallest."""
+        """Return the frequencies (Hz) at which the largest displacements at the best gaps occur."""
         return np.unique(self.worst[self.sizes <= CANDIDATE * self.nominal()[1].min()])
 
     def unclear(self) -> np.ndarray:
-        """Return the gaps at which the curve must be computed next, the most important first."""
+        """Return the gaps (mm) that the next round should run, the most important first."""
         gaps, values = self.nominal()
         good = values <= CANDIDATE * values.min()
         low, high = self.task.gap_ends(gaps[good])
@@ -174,7 +184,7 @@ class Curve:
 
 
 def middle_gap(first, last) -> float:
-    """Return a gap near the middle of a range, with as few digits as possible (see DIGITS)."""
+    """Return a gap near the middle between `first` and `last`, with few digits (see DIGITS)."""
     middle = float(np.sqrt(first * last))
     for digits in range(DIGITS, MOST_DIGITS):
         gap = float(f"{middle:.{digits}g}")
@@ -184,11 +194,12 @@ def middle_gap(first, last) -> float:
 
 
 def score(task, gaps, frequencies, starts, stream, progress=None, sets=(NOMINAL,)) -> tuple:
-    """Return three sequences over gaps (mm): displacement (mm), frequency (Hz), set of factors.
+    """Return displacement (mm), frequency (Hz) and set of factors of each gap's worst cell.
 
-    A cell is a gap with one of `frequencies` and one of `sets`. The results of a gap are those of
-    its worst cell. About (1 - share)/2 of the motions of a cell exceed its displacement. A doubtful
-    cell is run again with more starts (see DOUBTED).
+    The result is three sequences over `gaps` (mm). A cell is a gap, one of `frequencies` (Hz) and
+    one of `sets` (of factors). Each cell has `starts` random starts. About the fraction
+    (1 - task.share)/2 of the motions of a cell exceed the displacement of the cell. The worst cell
+    has the largest displacement. If this is doubtful, the cell is run again (see DOUBTED).
     """
     conditions = [(f, tuple(each)) for f in frequencies for each in sets]
     cells = [Cell(1e-3 * gap, *each) for gap in gaps for each in conditions]
@@ -214,14 +225,13 @@ def _ranks(task, starts):
 
 
 def _exceeded_by(task, motions, ranks):
-    """Return, for each rank and each cell, the displacement (mm) that `rank` motions exceed."""
     count = len(motions.peaks)
     sizes = np.array([np.sort(motions.numbers(k, rough=True)[0]) for k in range(count)])
     return task.millimetres(np.stack([sizes[:, -1 - rank] for rank in ranks]))
 
 
 def search(task, progress=None, rounds=ROUNDS) -> Curve:
-    """Return the curve of displacements over all gaps. Its points are denser near good gaps."""
+    """Return the `Curve` of displacements over all gaps, with more points near good gaps."""
     curve, few = Curve(task), task.few(FREQUENCIES)
     gaps = np.geomspace(*task.gap_span, min(GAPS, 6 * task.effort.candidates + 8))
     first = score(task, gaps, few, STARTS, ("search",), progress)
@@ -240,7 +250,7 @@ def search(task, progress=None, rounds=ROUNDS) -> Curve:
 
 
 def search_around(task, gap, sets, progress=None) -> Curve:
-    """Return the curve of displacements from gap/2 to 2 gap (mm), for the worst of `sets`."""
+    """Return the `Curve` from gap/2 to 2 gap (mm). At each gap the worst of `sets` counts."""
     curve, few = Curve(task), task.few(FREQUENCIES)
     gaps = gap * np.geomspace(0.5, 2, 2 * task.effort.candidates + 1)
     curve.put(gaps, *score(task, gaps, few, STARTS, ("search",), progress, sets)[:2])

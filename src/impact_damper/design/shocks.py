@@ -1,8 +1,7 @@
 """Robustness of a design: impulses on the machine, and how long motions take to return.
 
 The names *minimal critical shock*, *convergence time* and *finite-time basin stability* come from
-Attractors.jl, version 2. In this module a motion has returned once it stays below the promised
-displacement. A chaotic motion can therefore return, although it never settles.
+Attractors.jl, version 2.
 """
 
 import numpy as np
@@ -16,17 +15,18 @@ from impact_damper.model.packed import FREQUENCY
 # velocity by WIDEST x W A. W is the angular frequency of the force. A is the largest displacement
 # without damper or, if this is infinite, the promised displacement.
 SHOCKS, WIDEST = 32, 2.0
-# A run has LONGEST cycles. The largest displacement is found in each block of BLOCK cycles.
+# A motion runs for LONGEST cycles. Its peak is found in each block of BLOCK cycles.
 LONGEST, BLOCK = 1000, 10
-# `returned_share` is computed for each of these numbers of cycles after a start.
+# `returned_share` is the share of starts that return within each of these numbers of cycles.
 LIMITS = (10, 30, 100, 300, 1000 - BLOCK)
 
 
 def shocks(task, decision, progress=None) -> xr.Dataset:
-    """Return a dataset of convergence times after impulses, and of shares of starts that return.
+    """Return a dataset of the times in which motions return after impulses and from random starts.
 
-    All values are nominal, and the frequency is `promised_frequency`. An impulse acts on the
-    smallest motion that random starts lead to, at a strobe (a fixed phase of the forcing).
+    A motion has returned once it stays below the promised displacement. All values are nominal, and
+    the frequency is `promised_frequency`. The impulse acts at a fixed phase of the forcing, on the
+    machine in the smallest motion that random starts lead to.
     """
     frequency = float(decision["promised_frequency"])
     cell = Cell(1e-3 * float(decision["design_gap"]), frequency)
@@ -42,7 +42,7 @@ def shocks(task, decision, progress=None) -> xr.Dataset:
     drawn = draw_starts(task, [cell], task.effort.starts, ("shocks", 1))[0]
     starts = convergence_times(task, p, drawn, promised)
     critical = np.abs(changes)[np.isinf(returned)].min(initial=np.inf)
-    # After the impulse `critical` the motion did not return. Slightly smaller impulses are tried.
+    # `critical` is the least impulse without a return. Slightly smaller impulses are tried.
     first = changes[np.isinf(returned) & (np.abs(changes) <= critical)]
     steps = most / SHOCKS * np.arange(SHOCKS) / SHOCKS
     fine = (first[:, None] - np.sign(first)[:, None] * steps).ravel()
@@ -58,7 +58,7 @@ def shocks(task, decision, progress=None) -> xr.Dataset:
 
 
 def times_after(task, p, state, changes, promised):
-    """Return the convergence time after each of `changes` in the velocity of `state`."""
+    """Return `convergence_times` from `state` with each of `changes` in the machine's velocity."""
     states = np.tile(state, (len(changes), 1))
     states[:, 1::2] += np.asarray(changes)[:, None]
     return convergence_times(task, p, states, promised)

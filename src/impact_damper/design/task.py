@@ -33,37 +33,35 @@ from impact_damper.theory.free_oscillator import balance_amplitudes, free_folds,
 
 # Names of the values that may deviate from their nominal values. The last three are of the machine.
 VARIED = tuple("gap restitution contact_stiffness gravity friction stiffness damping force".split())
-# Factors by which nominal values are multiplied, here all 1.
-NOMINAL = (1.0,) * len(VARIED)
+NOMINAL = (1.0,) * len(VARIED)  # factors by which nominal values are multiplied, here all 1
 TOLERANCES = {"gap": 0.2}  # largest relative deviations if none are given
 SIDES = ["lower", "upper"]
-# A design continues without an additional result if its computation raises one of these errors.
+# If the computation of an additional result raises one of these errors, a design leaves it out.
 NUMERICAL = (ArithmeticError, ValueError, IndexError, np.linalg.LinAlgError)
 MOST_DEVIATION = 0.9  # largest relative deviation that is allowed
-# The deviations of these values may be given with a unit, of the physical quantity named here. So
-# may the deviation of `force`. Its quantity depends on the kind of excitation.
+# Value -> physical quantity of its tolerance, if the tolerance is given with a unit and not as a
+# fraction. `force` is not listed: its quantity depends on the kind of excitation.
 ABSOLUTE = {
     "gap": "displacement",
     "contact_stiffness": "stiffness",
     "stiffness": "stiffness",
     "damping": "damping",
 }
-# A design considers gaps from LEAST_GAP x g on. g is the least gap by rule (18) over the band, or
-# the greatest gap that the design considers, if this is smaller.
+# The least gap that a design considers is LEAST_GAP x the smaller of two gaps: the least gap that
+# rule (18) gives at a frequency of the band, and the greatest gap that the design considers.
 LEAST_GAP = 0.15
-# If the machine without damper escapes at all frequencies, a design considers gaps up to ESCAPING x
-# the greatest gap by rule (18) over the band.
+# If the machine without damper escapes at all frequencies, the greatest gap that a design considers
+# is ESCAPING x the greatest gap that rule (18) gives at a frequency of the band.
 ESCAPING = 4.0
 # An absorber is tuned from ABSORBED[0] x f1 to ABSORBED[1] x f2. f1 is the lowest and f2 the
 # highest of four frequencies: both ends of the band, lowest and highest resonance of the machine.
 ABSORBED = 0.5, 2.0
-# The first run of a motion has at most N cycles. D is the decay time of the machine in cycles.
-# For a chaotic motion N is max(PATIENT x D, LEAST_PATIENCE), for any other motion it is
-# max(LONG x PATIENT x D, LEAST_LIMIT). A smaller number in `Effort.settling` takes the place of N.
+# The first run of a motion has at most N forcing cycles, or the limit in `Effort.settling` if this
+# is smaller. An unforced vibration of the machine falls to 1/e in D cycles. For a chaotic motion N
+# is max(PATIENT x D, LEAST_PATIENCE), for any other motion max(LONG x PATIENT x D, LEAST_LIMIT).
 PATIENT, LEAST_PATIENCE = 5, 100
 LONG, LEAST_LIMIT = 6, 600
-# A motion that has not settled is measured over at least this number of forcing cycles.
-WATCHED = 100
+WATCHED = 100  # least number of forcing cycles over which an unsettled motion is measured
 
 
 def labelled(values, **coordinates) -> xr.Dataset:
@@ -83,7 +81,7 @@ class Effort:
     frequencies : int
         Number of frequencies over the band. Each resonance replaces the nearest frequency.
     candidates : int
-        Largest number of gaps in each round that refines the first search over all gaps.
+        Largest number of gaps in a round of the search. Only the first round has more gaps.
     starts : int
         Number of random starts (initial states) with which a gap is confirmed at each frequency.
     seed : int
@@ -273,12 +271,10 @@ class Task:
 
     @cached_property
     def gap_span(self) -> tuple[float, float]:
-        """Least and greatest gap that a design considers, mm.
-
-        In a greater gap the walls of the machine do not reach a loose mass at rest in the middle.
-        """
+        """Least and greatest gap that a design considers, mm."""
         rules = np.array([1e3 * self.rule_gap(f) for f in self.grid])
         sizes = self.bare[np.isfinite(self.bare)]
+        # In a wider gap the walls of the machine do not reach a loose mass at rest in the middle.
         most = 2 * sizes.max() if len(sizes) else ESCAPING * rules.max()
         if self.gravity:  # the machine may throw the loose mass up to the opposite wall
             speeds = 1e-3 * self.bare * 2 * math.pi * self.grid
@@ -295,7 +291,6 @@ class Task:
     def hurried(self) -> Settling:
         """Settings of the first run of each motion. PATIENT says how long this run may last."""
         full = self.effort.settling
-        # Decay time of the machine in forcing cycles at the middle frequency of the band.
         decay = sum(self.band) * self.machine.mass / self.machine.viscous_damping
         patience = int(np.clip(PATIENT * decay, LEAST_PATIENCE, full.patience))
         limit = int(np.clip(LONG * PATIENT * decay, LEAST_LIMIT, full.limit))
@@ -310,7 +305,7 @@ class Task:
 
     @cached_property
     def grid(self) -> np.ndarray:
-        """Evenly spaced frequencies over the band, Hz. A resonance replaces the nearest one."""
+        """Evenly spaced frequencies over the band (Hz). Each resonance replaces the nearest one."""
         values = np.linspace(*self.band, self.effort.frequencies)
         for frequency in self.resonances:
             values[1 + np.argmin(np.abs(values[1:-1] - frequency))] = frequency
@@ -347,9 +342,9 @@ class Task:
         return float(self.grid[np.argmax(self.bare)])
 
     def few(self, count, *others) -> np.ndarray:
-        """Return `count` frequencies of the grid, evenly spread, and some more, all in Hz.
+        """Return `count` frequencies (Hz), evenly spread over `grid`, and a few additional ones.
 
-        These are `self.worst_frequency`, those in `self.resonances`, and `others`.
+        The additional frequencies are `worst_frequency`, `resonances` and `others`.
         """
         places = np.linspace(0, len(self.grid) - 1, count).round().astype(int)
         resonances = np.intersect1d(self.grid, self.resonances)
@@ -380,7 +375,7 @@ class Task:
         )
 
     def system(self, gap, frequency, factors=NOMINAL) -> tuple:
-        """Return oscillator, damper and frequency without dimension, from a gap (m) and Hz."""
+        """Return oscillator, damper and frequency, dimensionless, for a gap (m) and a frequency."""
         varied = dict(zip(VARIED, factors, strict=True))
         oscillator = self.machine.oscillator()
         oscillator = replace(
@@ -426,7 +421,7 @@ class Task:
 
 
 def resonance_of(machine) -> tuple[float, float]:
-    """Return the lowest and highest resonance (Hz): natural frequency, peak or fold of a branch."""
+    """Return the least and the greatest (Hz) of natural frequency, resonance peak and folds."""
     natural = machine.natural_frequency
     oscillator = machine.oscillator()
     found = [point.frequency for point in free_folds(oscillator)]

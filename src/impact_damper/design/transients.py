@@ -1,8 +1,7 @@
 """Transients of a machine with and without its damper: a swept sine, and the unforced decay.
 
 A continuous sweep is replaced by a stepped sweep, because the integrator needs a fixed frequency.
-Each cycle of the stepped sweep has the mean frequency of this cycle in the continuous sweep. The
-phases of both sweeps differ by at most pi/4 x the relative change of the frequency in a cycle.
+Each cycle of the stepped sweep has the mean frequency of this cycle in the continuous sweep.
 """
 
 import math
@@ -36,19 +35,19 @@ TOLERANCE = 1e-10
 # this rate the resonance peak of a linear machine is 6 % lower than in steady state.
 # MOST_SWEPT: largest number of cycles in a sweep. A longer sweep gets a higher rate instead.
 SWEEP, MOST_SWEPT = 4.0, 6000
-# Largest relative change of the frequency in a forcing cycle.
-STEEPEST = 0.01
+STEEPEST = 0.01  # largest relative change of the frequency of a sweep in a forcing cycle
 # Before a sweep the first frequency is held until transients without the damper have decayed to
 # the fraction SETTLED, but for at most HELD forcing cycles.
 SETTLED, HELD = 0.01, 10**5
-# A decay ends when its energy has fallen to the energy at REST x the first displacement, or after
-# MOST_WINDOWS windows. A window is one period of unforced vibration. With a softening spring it is
-# at most LONGEST periods of small vibrations.
+# An unforced decay begins at a displacement A. It ends when the energy of machine and loose mass is
+# at most the energy of the machine alone at the displacement REST x A, or after MOST_WINDOWS
+# windows. A window of time is one period of the unforced vibration of the machine. With a softening
+# spring a window is at most LONGEST periods of small vibrations.
 REST, MOST_WINDOWS, LONGEST = 1e-3, 10**4, 2.0
 
 
 def transients(task, choice, progress=None) -> xr.Dataset:
-    """Return a swept sine and an unforced decay, with the damper of `choice` and without."""
+    """Return a dataset: swept sine and unforced decay, without and with the chosen damper."""
     machine, damper = task.machine, task.damper(1e-3 * float(choice["design_gap"]))
     # A sweep leads to the large motions of a nonlinear machine only if the sweep passes all
     # resonances. Resonances may lie outside the band.
@@ -65,7 +64,7 @@ def swept_sine(machine, damper, band, rate) -> xr.Dataset:
     """Return a dataset of sweeps up and down over a band (Hz) at a rate (Hz/s), from steady state.
 
     The envelope is the largest displacement in each cycle. If the motion escapes over the barrier
-    of a softening spring, the envelope is infinite in the cycle of the escape, later NaN.
+    of a softening spring, the envelope is infinite in the cycle of the escape, and NaN afterwards.
     """
     least, most = band
     count = int((most**2 - least**2) / (2 * rate))
@@ -127,10 +126,11 @@ def ring_down(machine, damper, displacement) -> xr.Dataset:
 
 
 def decay(machine, damper, displacement):
-    """Return the unforced decay from a displacement (m) as an array, and its end as a word.
+    """Return the unforced decay from a displacement (m) as an array, and a word for how it ended.
 
-    A row is a window of time. Columns: middle (s), inverse of the length (Hz), largest displacement
-    (m), number of contacts. The word is "at_rest", "escaped", or "limit" after MOST_WINDOWS rows.
+    A row is a window of time. Columns: its middle (s), inverse of its length (Hz), largest
+    displacement (m) and number of contacts in it. The word is "at_rest", "escaped", or "limit"
+    after MOST_WINDOWS rows.
     """
     scales = machine.scales
     scaled = None if damper is None else damper.scaled(scales)
@@ -187,11 +187,11 @@ def unforced_amplitude(stiffness, cubic, stored) -> float:
 
 
 def unforced_period(stiffness, cubic, amplitude) -> float:
-    """Return the period of x'' + a x + b x^3 = 0 at an amplitude A.
+    """Return the period of x'' + a x + b x^3 = 0 at amplitude A. a: `stiffness`, b: `cubic`.
 
-    The motion is A cn(w t | m) with w^2 = a + b A^2 and m = b A^2/(2 w^2). The period is 4 K(m)/w.
-    K is the complete elliptic integral of the first kind. (A. H. Nayfeh and D. T. Mook, Nonlinear
-    Oscillations, 1979, section 2.1.) The period is infinite if the spring pushes outwards at A.
+    The motion is A cn(w t | m), where cn is Jacobi's function, w^2 = a + b A^2, m = b A^2/(2 w^2).
+    The period is 4 K(m)/w, where K is the complete elliptic integral of the first kind. (A. H.
+    Nayfeh and D. T. Mook, Nonlinear Oscillations, 1979, section 2.1.) It is infinite if w^2 <= 0.
     """
     square = stiffness + cubic * amplitude**2
     if square <= 0:
