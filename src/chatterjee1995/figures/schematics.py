@@ -28,7 +28,7 @@ def carriage(axes):
 
 
 def slot(axes, contact):
-    """Draw the slot with the loose mass. `contact` draws the contact spring at a wall."""
+    """Draw the slot with the loose mass. `contact` draws spring and dashpot of a wall."""
     parts.mass(axes, 2.5, 0.66, 3.0, 1.46, style.WHITE)
     parts.wheels(axes, (3.85, 4.15), 0.66, 0.04)
     parts.mass(axes, 3.68, 0.74, 0.64, 0.90, style.PALE_SKY)
