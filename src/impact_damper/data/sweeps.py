@@ -12,8 +12,7 @@ NAMES = {value: name for name, value in OUTCOME.items()}
 class Family(NamedTuple):
     """A motion found at some parameter values of a sweep. `starts` random starts lead to it.
 
-    `places` has the shape of the sweep's arrays (parameter values, motions). It is True at the
-    entries of this motion.
+    `places`, shape (parameter values, motions), is True at the entries of this motion.
     """
 
     outcome: str

@@ -2,8 +2,7 @@
 
 A cell is a gap, a forcing frequency and a set of factors. A factor multiplies a nominal value, such
 as the restitution. A regime is a group of motions of one cell that have not settled and have
-similar largest displacements. docs/explanation/promise.md says how their displacement in a longer
-run is extrapolated.
+similar largest displacements (see docs/explanation/promise.md).
 """
 
 from dataclasses import dataclass, fields
@@ -31,9 +30,8 @@ DRAWN, FOLLOWED, TOGETHER = 4, 64, 8
 # A regime is a group of motions of one cell. The motions that have not settled are sorted by their
 # largest displacements. Two neighbours belong to one regime if their ratio is at most APART.
 APART = 1.3
-# A block peak is the largest displacement of a motion in a block of BLOCK forcing cycles.
-# `return_level` computes from the TAIL largest block peaks the displacement that is exceeded once
-# in HORIZON cycles.
+# A block peak is the largest displacement of a motion in a block of BLOCK forcing cycles. From the
+# TAIL largest block peaks `return_level` extrapolates the largest displacement in HORIZON cycles.
 BLOCK, TAIL, HORIZON = 50, 50, 100_000
 # A regime is a group of similar motions that have not settled. n is the number of forcing cycles
 # that its motions have run together. From n = POOLED on, the largest displacement of the regime is

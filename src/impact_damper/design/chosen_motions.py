@@ -52,8 +52,6 @@ def reached_motions(task, choice, response) -> xr.Dataset:
 
     The largest motion is sought among motions in `response` to which a random start leads, and
     motions with contacts to which a placed start leads (see `motions.start_states`).
-    `untouched_displacement` is the largest displacement of all motions without contacts to which
-    only placed starts lead.
     """
     sizes = response["maximum_displacement"].values
     placed = response["origin"].values == flag("origin", "placed_start")

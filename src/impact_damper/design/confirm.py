@@ -79,7 +79,7 @@ def confirm(task, gap, turn, sets, progress=None) -> Tried:
 
 
 def learn(task, tried, turn, curve, progress=None) -> None:
-    """Put the bounds at a tried gap into `curve`. If bounds surprise (SURPRISE), run near gaps."""
+    """Put the bounds at a tried gap into `curve`. If they are too large, run nearby gaps again."""
     gap, promise = tried.gap, tried.promise
     sizes, factors = promise.by_set(), promise.sets[:, 0]
     expected = curve.within(*np.array(task.gap_ends(gap))[:, None])[0]

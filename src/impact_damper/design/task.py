@@ -375,7 +375,7 @@ class Task:
         )
 
     def system(self, gap, frequency, factors=NOMINAL) -> tuple:
-        """Return oscillator, damper and frequency, dimensionless, for a gap (m) and a frequency."""
+        """Return dimensionless oscillator, damper and frequency (`gap` in m, `frequency` in Hz)."""
         varied = dict(zip(VARIED, factors, strict=True))
         oscillator = self.machine.oscillator()
         oscillator = replace(

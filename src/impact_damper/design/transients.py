@@ -128,9 +128,8 @@ def ring_down(machine, damper, displacement) -> xr.Dataset:
 def decay(machine, damper, displacement):
     """Return the unforced decay from a displacement (m) as an array, and a word for how it ended.
 
-    A row is a window of time. Columns: its middle (s), inverse of its length (Hz), largest
-    displacement (m) and number of contacts in it. The word is "at_rest", "escaped", or "limit"
-    after MOST_WINDOWS rows.
+    A row is a window of time: its middle (s), inverse of its length (Hz), largest displacement (m),
+    number of contacts. The word is "at_rest", "escaped", or "limit" after MOST_WINDOWS rows.
     """
     scales = machine.scales
     scaled = None if damper is None else damper.scaled(scales)
