@@ -50,7 +50,7 @@ CELLS_RANGE = {"least": 2, "most": 10**4}
 class Labelled(NamedTuple):
     """Labels of the n states (Z1, Z1') of a plane. Each state is run with m states (Z2, Z2').
 
-    labels: Index of the attractor to which a run leads, a negative flag if to none, shape (m, n).
+    labels: Index of the attractor to which a run leads, or a negative flag if none, shape (m, n).
     periods: Number of forcing cycles after which the label is known, shape (m, n).
     records: Record of each attractor (`records.MOTION`).
     label: Function that takes k states, shape (k, 4), and returns their labels and periods.
@@ -303,7 +303,7 @@ CHUNK = 4096
 
 
 def saddles(p, states, periods, phase):
-    """Return the saddles (unstable orbits) of all `periods` that Newton's method finds."""
+    """Return saddles (unstable orbits) of all `periods` found by Newton's method from `states`."""
     orbits, known = [], np.empty((0, 2))
     for n in sorted(set(periods)):
         for state in states:
@@ -390,12 +390,12 @@ def _wide(states, window, spacing, reach):
 
 
 # The minimal critical shock is found in four rounds. Round k divides a range of shocks into
-# SHOCKS[k] parts. The next range is the first part after whose largest shock a motion is lost.
+# SHOCKS[k] parts. The next range is the first part whose largest shock drives a motion away.
 SHOCKS = (256, 64, 64, 64)
 
 
 def robustness(p, found, phase, widest, shock, within) -> dict:
-    """Return the dataset variables for convergence times and shocks (jumps of Z1')."""
+    """Return the dataset variables for attractors' convergence times and shocks (jumps of Z1')."""
     rows = []
     for index, record in enumerate(found.records):
         own, states, returned = found.labels == index, orbit_states(p, record, phase), np.nan
@@ -411,9 +411,9 @@ def robustness(p, found, phase, widest, shock, within) -> dict:
 
 
 def _after(found, index, states, shocks):
-    """Return for each shock whether it drives any motion off its attractor, and the longest return.
+    """Return for each shock whether any motion leaves its attractor, and a convergence time.
 
-    The motions begin at all `states` of the attractor. The longest return is in forcing cycles.
+    The motions begin at `states` of the attractor. The time is their longest convergence time.
     """
     pushed = np.repeat(states, len(shocks), axis=0)
     pushed[:, 1::2] += np.tile(shocks, len(states))[:, None]

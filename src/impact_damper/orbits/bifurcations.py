@@ -17,7 +17,7 @@ PLACE = 1e-12
 COMPLEX = 1e-6
 # An unstable orbit counts as nearly stable if all multipliers have moduli below 1 + NEAR_CIRCLE.
 NEAR_CIRCLE = 1e-3
-# Two contacts with one wall merge if the flight between them is shorter than MERGED forcing cycles.
+# Two contacts with one wall count as merging if the flight between them is below MERGED cycles.
 MERGED = 1e-3
 # At most this number of changes in the order of contacts are located on one step.
 MOST_CHANGES = 8
@@ -29,7 +29,7 @@ class Event(NamedTuple):
     """A bifurcation of a branch, or a change in the order of contacts along a branch.
 
     kind: "fold", "symmetry_breaking", "period_doubling", "neimark_sacker", "grazing" (a contact
-    appears or vanishes in flight) or "merging" (two contacts with one wall become one, or reverse).
+    appears or vanishes in flight) or "merging" (two contacts become one, or the reverse).
     point: The point of the branch at the event, or close beside the event.
     before, after: Order of contacts (`Orbit.sequence`) before and after the event.
     """

@@ -270,7 +270,7 @@ def _meeting(events, orbit):
 
 
 def _passes(point, ahead, first):
-    """Return the point between `point` and `ahead` with the orbit of the point `first`, or None."""
+    """Return the point between `point` and `ahead` whose orbit is `first.orbit`, or None."""
     forward = (ahead.value - point.value) * first.tangent[-1] > 0
     if not forward or (point.value - first.value) * (ahead.value - first.value) > 0:
         return None

@@ -172,9 +172,10 @@ def _quiet_motions(data, clearances, rule):
 
 
 def _stable_part(p, state, span):
-    """Return clearances and max |Z1| of the stable part of a branch, which begins near `state`.
+    """Return clearances and max |Z1| of stable orbits on the branch of the orbit near `state`.
 
-    `p` belongs to `state`. Also return a function that computes max |Z1| at a clearance in between.
+    `p` holds the parameters of this orbit. Also return a function that computes max |Z1| for a
+    clearance between the clearances returned.
     """
 
     def family(clearance):
@@ -258,7 +259,7 @@ def _kind(size_at, best, least, longest):
 
 
 def _near(values, sizes, size_at, best, least):
-    """Return the last clearance from `best` on with max |Z1| up to NEAR_MINIMUM x `least`."""
+    """Return the clearance towards values[-1] up to which max |Z1| <= NEAR_MINIMUM x `least`."""
     level = NEAR_MINIMUM * least
     inside = best
     for value, size in zip(values, sizes, strict=True):

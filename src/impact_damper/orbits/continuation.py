@@ -19,12 +19,12 @@ from impact_damper.orbits.shooting import AMPLIFYING
 
 # Newton's method fails after NEWTON corrections, or if an unknown must change by LARGEST or more.
 NEWTON, LARGEST = 10, 0.5
-# A correction is the largest change of an unknown. Newton's method has converged if the residual is
-# as small as a rounding error and one of these is true:
+# A correction is the largest change of an unknown in one iteration. Newton's method has converged
+# if the residual is as small as a rounding error and one of these is true:
 # - The correction before the last one is below SURE.
-# - The derivative by the parameter is up to date, and the last correction is below CLOSE.
-# - This derivative is up to date, and the last correction is below ROUNDING, but more than half of
-#   the correction before it.
+# - The last correction is below CLOSE, and d(`Orbit.defects`)/d(parameter) is up to date.
+# - The last correction is below ROUNDING and more than half of the correction before it, and
+#   d(`Orbit.defects`)/d(parameter) is up to date.
 # The method fails if a correction exceeds both SURE and SHRINKING times the correction before it.
 CLOSE, ROUNDING, SURE, SHRINKING = 1e-10, 1e-4, 1e-6, 0.7
 # The derivative of `Orbit.defects` by the parameter is expensive. It is updated only if Newton's
@@ -86,7 +86,7 @@ class Problem:
 
     @classmethod
     def of(cls, family, orbit, *, symmetric=None):
-        """Return the `Problem` of an orbit. Without `symmetric` test whether it is symmetric."""
+        """Return the `Problem` of an orbit. If `symmetric` is None, derive it from the orbit."""
         if symmetric is None:
             symmetric = bool(orbit.record["asymmetry"] < SYMMETRIC)
         cycle = orbit.periods * TURN * (0.5 if symmetric else 1.0)
@@ -209,7 +209,7 @@ class Problem:
         return None if point is None or self.length(point.x - x) > aside else point
 
     def at_value(self, point, value):
-        """Return the point near `point` with the parameter `value`, or None if Newton fails."""
+        """Return the point near `point` with the parameter `value`, or None if it is not found."""
         length = (value - point.x[-1]) / (point.tangent[-1] or np.inf)
         x = point.x + np.clip(length, -FARTHEST_GUESS, FARTHEST_GUESS) * point.tangent
         x[-1] = value
@@ -221,9 +221,9 @@ class Problem:
 
 
 def point_at_distance(origin, point, ahead, distance):
-    """Return the point between `point` and `ahead` at a `distance` from `origin`, or None.
+    """Return the point between `point` and `ahead` at a `distance` from `origin`.
 
-    The distance is measured along the tangent of `origin`. None: Newton's method fails.
+    The distance is measured along the tangent of `origin`. If Newton's method fails, return None.
     """
     row = origin.problem.metric * origin.tangent
     first, last = (row @ (end.x - origin.x) for end in (point, ahead))
@@ -278,8 +278,8 @@ AIM, GROWTH, SHRINKAGE = 0.65, 1.5, 0.3
 def next_point(point, span, length):
     """Make a step of `length` from `point`. Return the new point, or None if it is rejected.
 
-    Also return the factor by which to multiply `length` for the next step. `span` is the range of
-    the parameter; a step beyond its end is shortened to it.
+    Also return the factor by which to multiply `length` for the next step. A step that leaves the
+    range `span` of the parameter is shortened to end there.
     """
     problem = point.problem
     bent = length**2 / 2 * point.bend + length**3 / 6 * point.twist
@@ -341,7 +341,7 @@ def holds_still(point):
 
 
 def recut(point, between=()):
-    """Return `point` with its orbit divided into new segments, or unchanged if Newton fails.
+    """Return `point` with its orbit in new segments, or unchanged if Newton's method fails.
 
     A flight that contains one of the phases in `between` is cut before and after this phase.
     """

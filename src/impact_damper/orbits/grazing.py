@@ -15,16 +15,16 @@ from impact_damper.orbits import segments
 from impact_damper.orbits.continuation import NEWTON, Point, recut
 from impact_damper.orbits.segments import list_turns, slopes_of_ends
 
-# Before and after a grazing, the orbits of a branch differ by one contact, symmetric orbits by two.
-# Among orbits with more contacts, points are computed for extrema with the distances LEAST,
-# LEAST x RATIO, LEAST x RATIO^2, ... up to MOST from the wall.
+# On one side of a grazing the orbits of a branch have more contacts than on the other side. On the
+# side with more contacts, points are computed at which the extremum of Z2 is LEAST, LEAST x RATIO,
+# LEAST x RATIO^2, ... up to MOST away from the wall.
 RATIO, LEAST, MOST = 10.0, 1e-13, 2e-5
 # If a step from one height to the next fails, a height between the two is tried first. This is done
 # at most HALVINGS times in each grazing, and HALVINGS_BETWEEN times in a row in `Passage.between`.
 HALVINGS, HALVINGS_BETWEEN = 8, 3
 # A step led to a more symmetric branch if max |`Orbit.deviation`| fell to FALLEN x its old value.
 FALLEN = 0.01
-# Among orbits with fewer contacts, the extrema have these distances from the wall.
+# Distances of the extremum from the wall at the points on the side with fewer contacts.
 BESIDE = 1e-9, 2e-5
 # Newton's method fails if it must change an unknown by LARGEST or more. It has converged only if
 # the error of the height is below CLOSE x |height| + ROUNDING.
@@ -75,7 +75,7 @@ class Passage(NamedTuple):
     kind: str
 
     def between(self, k):
-        """Return a function of a height. It finds the point with this height after point k."""
+        """Return a function that finds the point with a given height between points k and k + 1."""
         known = [(self.heights[end], self.points[end], self.turns[end]) for end in (k, k + 1)]
         direction = np.sign(self.heights[k + 1] - self.heights[k])
 
@@ -95,7 +95,7 @@ class Passage(NamedTuple):
 
 
 def guess(point, turn, height):
-    """Return a point's unknowns, moved along its tangent until `turn` has about this `height`."""
+    """Return the unknowns of `point`, moved along its tangent until `turn` has about `height`."""
     return point.x + (height - turn.height) / (turn.gradient @ point.tangent) * point.tangent
 
 
@@ -154,7 +154,7 @@ def _before(height, target):
 
 
 def _targets(height, sharp, direction):
-    """Return heights at which to compute points. Those of sign `sharp` belong to more contacts."""
+    """Return heights for points. Orbits with heights of the sign `sharp` have more contacts."""
     fine = LEAST * RATIO ** np.arange(1 + int(np.log(MOST / LEAST) / np.log(RATIO)))
     if direction == sharp:
         return list(sharp * fine)
@@ -195,7 +195,7 @@ def turns_of(orbit):
 
 
 def with_gradient(problem, x, orbit, turn):
-    """Return `turn`, an extremum of Z2, with its gradient by the unknowns `x` of the orbit."""
+    """Return the extremum `turn` with its gradient: the derivative of |Z2| - d0 by unknowns x."""
     k, rate = turn.segment, problem.rate(x[-1])
     phases, begin = np.array([orbit.phases[k], turn.phase]), orbit.states[k]
     end, tangents, slopes = begin.copy(), np.eye(4), np.empty((1, 4))

@@ -180,7 +180,7 @@ class Orbit:
 
     @cached_property
     def sequence(self):
-        """Walls in the order of contacts, such as "+-". The contact listed first may be any."""
+        """Walls in the order of contacts, such as "+-". Where the orbit begins has no effect."""
         walls = "".join("+" if wall > 0 else "-" for wall in self.contacts[:, 0])
         return min((walls[k:] + walls[:k] for k in range(len(walls))), default="")
 
@@ -237,7 +237,7 @@ class Orbit:
         return record
 
     def is_same(self, other, tolerance=1e-6):
-        """Return whether `other` is this orbit or its mirror image, perhaps shifted by cycles."""
+        """Return whether `other` is this orbit or its mirror image, begun in any forcing cycle."""
         if other.periods != self.periods:
             return False
         first = self.phase + (STROBE - self.phase) % TURN + TURN / 2
@@ -260,7 +260,7 @@ class Orbit:
         return np.min(distances, axis=-1, initial=np.inf)
 
     def flight_phase(self):
-        """Return the first phase or, if near a contact, the phase amid the longest flight."""
+        """Return the first phase if far from contacts, else the middle of the longest flight."""
         if not self.touching or self.margin(self.phase) > MARGIN:
             return self.phase
         ends = self.p[FREQUENCY] * self.contacts[:, 2]

@@ -102,7 +102,7 @@ def orbit_branches(
 
     - on a branch of period 1 or 3: the new branch that begins at a loss of symmetry, and the new
       branch that begins at a period doubling with a stable orbit beside it;
-    - on a branch of another period: the new branch that begins at such a point with a stable orbit
+    - on a branch of another period: the new branch that begins at either event with a stable orbit
       beside it, if the new branch has a period up to 9 and begins with stable orbits;
     - where a branch of a period up to 4 ends at a branch of symmetric orbits or of half the period:
       this second branch.

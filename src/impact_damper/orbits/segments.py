@@ -163,7 +163,7 @@ NUDGE, FINE_NUDGE, BENT = 2e-7, 1e-9, 1e-3
 def list_turns(p, states, phases, tolerance, turns):
     """Write the extrema of Z2 in all segments to the rows of `turns`. Return the number of extrema.
 
-    Extrema that find no row are counted, but not written. The columns of `turns` are: the index
+    Extrema for which no row is left are only counted. The columns of `turns` are: the index
     of the segment, the phase W T, 1 at a maximum of |Z2| or 0 at a minimum, and |Z2| - d0.
     """
     work, start = workspace(), np.empty(4)

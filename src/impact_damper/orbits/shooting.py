@@ -8,8 +8,7 @@ from impact_damper.motions.strobe_map import STROBE
 from impact_damper.orbits import segments
 from impact_damper.orbits.orbit import TURN, Orbit, integrate
 
-# Newton's method stops after ITERATIONS corrections, or if a component of a state must change by
-# FAR or more.
+# Newton's method stops after ITERATIONS corrections, or before a state changes by FAR or more.
 ITERATIONS, FAR = 20, 10.0
 # The first phase of an approximate orbit is changed only if the orbit's residual is below NEAR.
 NEAR = 1e-6

@@ -21,8 +21,8 @@ from impact_damper.orbits.shooting import shoot
 DISTANCES, ASIDE = (2e-2, 4e-3, 8e-4, 1e-4, 1e-5), 0.5
 # If no point is found, a grazing may be near. Then points are sought at which |Z2| - d0 in an
 # extremum of Z2 is 1 + s times its value at the bifurcation, for each s in SHARES. First guesses
-# lie within REACH of the bifurcation. A point's distance from the bifurcation may differ from the
-# first guess by the fraction MISSED. At most PASSAGES points are followed through the grazing.
+# lie within REACH of the bifurcation. A point found may be nearer or farther than its first guess
+# by the fraction MISSED. At most PASSAGES points are followed through the grazing.
 SHARES, MISSED, REACH, PASSAGES = (0.5, 0.2, 0.1, 0.05, 0.02), 0.5, 1e-3, 2
 # Kinds of events at which another branch begins.
 LEAVING = ("symmetry_breaking", "period_doubling")
@@ -121,7 +121,7 @@ NEAR = 1e-9
 
 
 def follow_others(branches, follow):
-    """Append to `branches` the branches that begin at their events or ends. Use `follow`."""
+    """Extend the list `branches` by the branches that begin at events and ends of its branches."""
     for branch in branches:
         for edge in (0, -1):
             point = _more_symmetric(branches, branch, edge)
@@ -153,7 +153,7 @@ def _new_branch(branches, branch, place, event):
     """Return a point of the branch that begins at `event`, or None if it is not to be followed.
 
     It is not followed if it is known already. At a period doubling, and at any event of a `branch`
-    with a period not in WHOLE, an orbit of `branch` beside the event must be stable.
+    with a period other than 1 or 3, an orbit of `branch` beside the event must be stable.
     """
     ends = {0: branch.ends[0], len(branch.points) - 1: branch.ends[1]}
     if event.kind not in LEAVING or ends.get(place) == event.kind:
@@ -174,7 +174,7 @@ def _new_branch(branches, branch, place, event):
 
 
 def ends_at(branches, number, edge, event):
-    """Return whether the end `edge` of branches[number] is `event` of a more symmetric branch."""
+    """Return whether branches[number] ends (see `edge`) at `event` of a more symmetric branch."""
     branch = branches[number]
     if branch.ends[edge] != event.kind or event.kind not in LEAVING:
         return False

@@ -87,7 +87,7 @@ def followed_label(data):
 
 
 def runs(data, chosen):
-    """Yield the stable and unstable parts of all branches with a period that fulfils `chosen`."""
+    """Yield stable and unstable parts of all branches for whose period `chosen(period)` is true."""
     stable = data["orbit_stability"].values == flag("orbit_stability", "stable")
     value, size = data["followed_value"].values, data["orbit_displacement"].values
     for branch, period in enumerate(data["branch_period"].values):
@@ -97,7 +97,7 @@ def runs(data, chosen):
 
 
 def parts_by_stability(value, size, stable):
-    """Cut a branch where its stability changes. Yield parameters, displacements, stability."""
+    """Cut a branch where stability changes. Yield values, displacements, stability of each part."""
     edges = [0, *(np.flatnonzero(np.diff(stable)) + 1), len(value)]
     for first, last in zip(edges, edges[1:], strict=False):
         if last > first:

@@ -35,7 +35,7 @@ ESCAPED = style.markers("escapes", style.GREY, "^", markersize=5, clip_on=False)
 
 @style.context()
 def draw_answer(data):
-    """Return the figure of displacements against frequency and against the gap."""
+    """Return the figure of displacements in a design, against frequency and against the gap."""
     drawn = style.figure("double", 2.9)
     left, right = drawn.subplots(1, 2)
     frequency_panel(left, data)
@@ -142,7 +142,7 @@ def draw_forces(data):
 
 @style.context()
 def draw_transients(data):
-    """Return the figure of frequency sweeps and of an unforced decay, None without such data."""
+    """Return the figure of frequency sweeps and an unforced decay, or None if data are missing."""
     if "sweep_envelope" not in data:
         return None
     drawn = style.figure("double", 2.8)

@@ -128,7 +128,7 @@ def figure(column, height) -> Figure:
 
 
 def grid(count, row, rest, columns=2, **shared):
-    """Return a figure with `count` lettered axes, and the axes. A row is `row` inches high."""
+    """Return a figure and its `count` lettered axes. Height: `rest` + `row` x rows, in inches."""
     columns = min(columns, count)
     rows = -(-count // columns)
     drawn = figure("double", rest + row * rows)

@@ -35,8 +35,8 @@ def conclusion(data) -> list[str]:
 def check_folder(folder, machine, force) -> None:
     """Raise OSError if files cannot be written into a folder.
 
-    Without `force`, also raise it if the folder has a page of another program, or data of another
-    machine.
+    Without `force`, also raise OSError if the folder has a page of another program, or data of
+    another machine.
     """
     check_writable(folder / "index.html")
     if force:
@@ -74,7 +74,7 @@ def write_page(name, data, folder, file=None, date="", figures=FIGURES) -> None:
 
 
 def page_of(name, data, pictures, file=None, date="") -> str:
-    """Return the page in HTML. `pictures` maps names of figures to PNG data."""
+    """Return the page of the machine `name` in HTML. `pictures` maps figure names to PNG data."""
     numbers = numbers_of(data)
     numbers |= {
         "title": f"Impact damper for the machine {name.replace('_', ' ')}",
