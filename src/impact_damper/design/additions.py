@@ -75,7 +75,7 @@ def _force(task, gap, frequency):
 
 
 def competitors(task, decision, progress=None) -> xr.Dataset:
-    """Return the machine's displacements without, with a tuned, and with the given absorber."""
+    """Return displacements with no absorber, with a tuned absorber, and with the given absorber."""
     band = task.absorber_band
     found = absorber_responses(task.machine, task.mass, task.grid, band=band, own=task.absorber)
     return found.assign_coords(labelled({}, frequency=task.grid).coords)

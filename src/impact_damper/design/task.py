@@ -81,7 +81,7 @@ class Effort:
     frequencies : int
         Number of frequencies over the band. Each resonance replaces the nearest frequency.
     candidates : int
-        Largest number of gaps in a round of the search. Only the first round has more gaps.
+        Largest number of gaps in each round of the search after the first round.
     starts : int
         Number of random starts (initial states) with which a gap is confirmed at each frequency.
     seed : int
