@@ -27,7 +27,7 @@ flight_step, contact_step = by_address(_MANY.flight_step), by_address(_MANY.cont
 flight_tangents = by_address(_MANY.flight_tangents)
 contact_tangents = by_address(_MANY.contact_tangents)
 SIZE, TANGENT_SIZE = _MANY.SIZE, _MANY.TANGENT_SIZE
-# Indices of rows (`instances.rows`). `Pool.numbers[m, k]` belongs to trajectory m and row k.
+# Columns of `Pool.numbers`. Their indices are the indices of rows in the array of a step.
 STATE, SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
     row // LANES
     for row in (_MANY.Y0, _MANY.SIDE, _MANY.TIME, _MANY.LONGEST, _MANY.TOLERANCE, _MANY.LENGTH)
@@ -37,16 +37,16 @@ STATE, SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
 class Pool(NamedTuple):
     """A pool of n trajectories. Each trajectory has its own end time.
 
-    numbers: Parameters, states and arguments of a step (`instances.rows`); shape (n, LENGTH).
-    ends: End times; shape (n,).
+    numbers: Each trajectory's parameters, state and arguments of a step; shape (n, LENGTH).
+    ends: Times at which the integration of the trajectories ends; shape (n,).
     farthest: |Z1| beyond which a trajectory escapes (`equation.no_return`); shape (n,).
     tangents: A solution of the variational equations for each trajectory; shape (n, 4).
     queues: Indices of the waiting trajectories, a row for each kind of step; shape (4, n).
     waiting: Number of trajectories in each queue; shape (4,).
     contacts: Number of contacts begun since the last call of `send`; shape (n,).
-    largest: Largest |Z1| since the last call of `enter`, NaN if not needed; shape (n,).
-    held: Index of the trajectory whose parameters a lane holds, -1 if none; shape (LANES,).
-    a, d: Arrays of one step of LANES trajectories (a) and their tangents (d).
+    largest: Largest |Z1| since the last call of `enter`, NaN if no one asks for it; shape (n,).
+    held: For each lane the index of the trajectory whose parameters it has, or -1; shape (LANES,).
+    a, d: Arrays for a step of LANES trajectories (a) and for their tangents (d).
     """
 
     numbers: np.ndarray
@@ -82,7 +82,7 @@ def make_pool(size):
 
 @kernel
 def enter(pool, m, p, y, side, tolerance):
-    """Write a trajectory into a pool at index m. The integration begins after a call of `send`."""
+    """Store a trajectory, with packed parameters p and state y, at index m of a pool."""
     numbers = pool.numbers[m]
     for i in range(packed.COUNT):
         numbers[i] = p[i]
@@ -118,8 +118,9 @@ def enqueue(queues, waiting, m, kind):
 def choose(pool, chosen):
     """Take up to LANES trajectories from the longest queue.
 
-    Return how many trajectories were taken, and their kind of step. `chosen` receives the index of
-    a trajectory for each lane. The last index is repeated if there are fewer than LANES.
+    Return how many trajectories were taken, and the index of the queue, which is the kind of step.
+    `chosen` receives the index of a trajectory for each lane. If fewer than LANES trajectories were
+    taken, the lanes that are left over receive the last of the indices again.
     """
     waiting = pool.waiting
     kind = FLIGHT
@@ -135,7 +136,7 @@ def choose(pool, chosen):
 
 @kernel_only
 def gather(pool, chosen, kind):
-    """Copy chosen trajectories into the lanes, but not parameters that a lane already holds."""
+    """Copy `chosen` trajectories into the lanes, but no parameters that a lane already holds."""
     for lane in range(LANES):
         m = chosen[lane]
         numbers = pool.numbers[m]
@@ -156,7 +157,7 @@ def scatter(pool, chosen, count, kind, arrived):
     """Copy trajectories from the lanes back into the pool. Queue unfinished trajectories again.
 
     Return how many trajectories have ended. `arrived` receives the indices of these trajectories.
-    An escaped trajectory (`equation.no_return`) ends in the state at the escape.
+    A trajectory ends at its end time, or before, if it escapes (`equation.no_return`).
     """
     ended = 0
     for lane in range(count):
@@ -190,9 +191,10 @@ def scatter(pool, chosen, count, kind, arrived):
 def raise_largest(pool, chosen, count, kind):
     """After a step, update `pool.largest`, the largest |Z1| of each chosen trajectory.
 
-    Turning points are only sought if Z1 could exceed `largest`. `rise` is a bound on how far Z1 can
-    be beyond its values at both ends of the step. In contact it is the sum of the moduli of the
-    series' terms, in flight it is the bound `sag` of `find_contact`.
+    During the step |Z1| stays below `ends`, the larger of its values at both ends of the step, plus
+    `rise`. Only if this bound exceeds the largest |Z1| so far, the step's maximum is computed. In
+    contact `rise` is the sum of the moduli of the terms of Z1's Taylor series, without the constant
+    term. In flight `rise` follows from CHANGE, a bound on the change of Z1' in the step.
     """
     a, order = pool.a, CONTACT_ORDER if kind & 1 else FLIGHT_ORDER
     rise, series = np.zeros(LANES), np.empty(max(FLIGHT_ORDER, CONTACT_ORDER) + 1)

@@ -63,13 +63,16 @@ def number(x):
 
 
 def template(function, caller):
-    """Return a wrapper of a template that kernels can call. `caller` only calls the wrapper."""
+    """Return a function that executes the template `function`. Kernels can call it.
+
+    `caller` is a Python function that calls the returned function, and does nothing else.
+    """
 
     def generate(context, builder, signature, arguments):
         builder.call(_compiled(builder.module, function, arguments), arguments)
         return context.get_dummy_value()
 
-    # numba finds out from the signature of these functions how many arguments the wrapper takes.
+    # numba reads the number of the template's arguments from the signature of these functions.
     def of_one(typing, a):
         return types.void(a), generate
 
@@ -86,7 +89,7 @@ def _is_llvm(value):
 
 
 def _compiled(module, function, arguments):
-    """Return the LLVM function of a template. Arguments known at compilation become constants."""
+    """Return a template as an LLVM function. Arguments that are Python numbers become constants."""
     name = f"{function.__module__}.{function.__name__}"
     name = ".".join([name, *(str(each) for each in arguments if not _is_llvm(each))])
     if name in module.globals:
@@ -110,11 +113,12 @@ class Body(ast.NodeVisitor):
     def __init__(self, builder, function):
         self.builder, self.function = builder, function
         self.tree = definition(function)
-        # `values` has the names that are assigned once, `memory` other names, `returned` results.
+        # `values` has the value of each name that is assigned once. `memory` has a pointer for each
+        # other name, and `returned` has a pointer for each result.
         self.values, self.memory, self.returned = {}, {}, []
 
     def expand(self, arguments):
-        """Write the code of the template for given arguments. Return the value that it returns."""
+        """Write the code of the template for given arguments. Return the template's result."""
         self.end = self.builder.append_basic_block()
         names = [each.arg for each in self.tree.args.args]
         nodes = [each for each in ast.walk(self.tree) if isinstance(each, ast.Name)]
@@ -161,7 +165,7 @@ class Body(ast.NodeVisitor):
         return [self.llvm(each, FLOAT if FLOAT in kinds else None) for each in values]
 
     def pointer(self, node):
-        """Return the pointer to an entry of an array."""
+        """Return the pointer to an array entry, such as a[3]."""
         index = self.llvm(self.visit(node.slice))
         return self.builder.gep(self.visit(node.value), [index], inbounds=True)
 
@@ -223,7 +227,7 @@ class Body(ast.NodeVisitor):
         self.builder.position_at_end(after)
 
     def visit_For(self, node):
-        """Write a loop `for i` of two or more rounds as a loop in LLVM. Unroll every other loop."""
+        """Write a loop over `i` with two or more rounds as a loop in LLVM. Unroll other loops."""
         count, counter = self.visit(node.iter.args[0]), node.target.id
         if counter == "i" and count > 1:
             with cgutils.for_range(self.builder, ir.Constant(INTEGER, count)) as loop:
@@ -302,7 +306,7 @@ class Body(ast.NodeVisitor):
         return getattr(self.builder, whole)(*pair)
 
     def extreme(self, sign, found, other):
-        """Return the smaller (sign "<") or the larger (sign ">") of two numbers."""
+        """Return the smaller (sign "<") or larger (sign ">") of the numbers `found` and `other`."""
         return self.builder.select(self.compared(sign, other, found), other, found)
 
     def visit_Call(self, node):

@@ -88,7 +88,7 @@ inlined = partial(kernel, inline="always")
 
 @kernel
 def aligned(count):
-    """Return an array of zeros. It begins where a cache line begins, so that vectors load fast."""
+    """Return an array of `count` zeros. Its first number is the first number of a cache line."""
     numbers = np.zeros(count + CACHE_LINE)
     before = -numbers.ctypes.data // 8 % CACHE_LINE
     return numbers[before : before + count]
@@ -96,11 +96,7 @@ def aligned(count):
 
 @intrinsic
 def pointer(typing, array):
-    """Return a pointer to the first element of an array. The caller must keep the array alive.
-
-    numba counts references to arrays, which takes longer than some kernels. Pointers are not
-    counted.
-    """
+    """Return a pointer to the first element of an array. The caller must keep the array alive."""
 
     def generate(context, builder, signature, arguments):
         return context.make_array(signature.args[0])(context, builder, arguments[0]).data
@@ -109,7 +105,7 @@ def pointer(typing, array):
 
 
 def signature_of(function):
-    """Return the signature of a kernel that takes pointers to float64 and returns nothing."""
+    """Return numba's signature of a kernel that takes pointers to float64 and returns nothing."""
     count = len(inspect.signature(function.py_func).parameters)
     return types.void(*[types.CPointer(types.float64)] * count)
 
@@ -136,7 +132,7 @@ def by_address(function):
 
 @intrinsic
 def call_at(typing, address, numbers):
-    """Call the kernel at a memory address, an integer, with the pointer `numbers` as argument."""
+    """Call a kernel with the pointer `numbers` as argument. `address` is the kernel's address."""
 
     def generate(context, builder, signature, arguments):
         address, numbers = arguments
@@ -148,7 +144,7 @@ def call_at(typing, address, numbers):
 
 
 class Progress(event.Listener):
-    """Prints MESSAGE when the compilation of this package's kernels has taken PATIENCE seconds."""
+    """Prints MESSAGE once, when this package's kernels have taken PATIENCE seconds to compile."""
 
     def __init__(self):
         self.depth, self.spent, self.written = 0, 0.0, False

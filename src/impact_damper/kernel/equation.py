@@ -41,7 +41,7 @@ def forcing_amplitude(p, lane=0, lanes=1):
 @partial(kernel_only, fastmath=False)
 def external_force(p, t):
     """Return the force of the excitation at the time t, divided by the primary mass."""
-    # `fastmath=False` keeps LLVM from fusing amplitude * cosine with a sum in the caller.
+    # `fastmath=False` keeps LLVM from fusing this multiplication with an addition in the caller.
     return forcing_amplitude(p) * math.cos(p[FREQUENCY] * t)
 
 
@@ -80,13 +80,13 @@ def no_return(p):
 
 @kernel_only
 def has_escaped(p, x, v):
-    """Return whether |Z1| is above `no_return` and grows. If k3 < 0, NaN counts as escaped."""
+    """Return whether a motion with Z1 = x and Z1' = v moves outward beyond `no_return`."""
     return p[CUBIC] < 0.0 and not (abs(x) <= no_return(p) or x * v <= 0.0)
 
 
 @kernel_only
 def energy(p, y):
-    """Return kinetic plus potential energy. A wall's spring contributes during contact only."""
+    """Return the kinetic plus the potential energy of both masses in the state y."""
     x, v = y[0], y[1]
     total = 0.5 * v * v + (0.5 * p[STIFFNESS] + 0.25 * p[CUBIC] * x * x) * x * x
     if p[INVERSE_MASS_RATIO] > 0.0:
@@ -107,7 +107,7 @@ def coefficients(at):
 
 
 def beginning(at):
-    """Yield lines of code that compute variables, such as `stiffness`, for `motion`."""
+    """Yield lines of code that must come before the lines of `motion`. `at`: see `coefficients`."""
     yield from coefficients(at)
     yield "double = 2.0 * cubic"
     yield "s0 = cubic * x0 * x0"
@@ -116,14 +116,19 @@ def beginning(at):
 
 
 def motion(order, phase, constants, across):
-    """Yield lines of code that compute the Taylor series of a step up to `order`.
+    """Yield lines of code that compute the Taylor series of Z1 in a step, up to `order`.
 
-    `phase` is "flight" or "contact". The lines read x0, x1, `push` (`templates.friction`), `cosine`
-    = (F + U W^2) cos(W T), `sine` = (F + U W^2) sin(W T), and the variables of `beginning`. In
-    contact the lines also read q0, q1, `r1` and `mobility` = 1 + 1/rm. If `across` is true, they
-    also read `draw`, `base_cosine` and `base_sine` (`templates.across`). `constants(k)` returns
-    lines that set h{k} = h/k and d{k} = D/k (h and D if k = 0), and e{k}. Coefficient k of the
-    forcing is e{k} `cosine` if k is even, and e{k} `sine` if k is odd.
+    If `phase` is "contact" (not "flight"), the lines also compute the series of the depth in the
+    wall. The lines read these variables, and the variables that the lines of `beginning` set:
+
+    x0, x1, q0, q1     at the beginning of the step: Z1 and Z1', in contact the depth and its rate
+    cosine, sine       at the beginning of the step: (F + U W^2) cos(W T) and (F + U W^2) sin(W T)
+    push               change of Z1'' by friction (`templates.friction`)
+    r1, mobility       in contact: stiffness of the walls, and 1 + 1/rm
+    draw, base_cosine, base_sine     if `across` is true: see `templates.across`
+    h{k}, d{k}, e{k}   set by the lines that `constants(k)` returns. h{k} is h/k (h if k = 0), d{k}
+                       is D/k (D if k = 0). Coefficient k of the forcing is e{k} `cosine` if k is
+                       even, and e{k} `sine` if k is odd.
     """
     for k in range(order - 1):
         yield from constants(k)
@@ -142,14 +147,15 @@ def motion(order, phase, constants, across):
 
 
 def tangent(order, phase, constants):
-    """Yield lines of code that compute the series of a tangent up to `order`.
+    """Yield lines of code that compute the Taylor series of a tangent up to `order`.
 
-    A tangent is a solution of the variational equations. In these lines x0, x1, ... and q0, q1, ...
-    are coefficients of the tangent. u0, u1, ... come from `squares`. Arguments are as in `motion`.
+    A tangent is a solution of the variational equations. In the lines x0, x1, ... and q0, q1, ...
+    are the coefficients of the tangent's Z1 and of its depth. The lines read u0, u1, ..., which the
+    lines of `squares` compute. The arguments mean what they mean in `motion`.
     """
     for k in range(order - 1):
         yield from constants(k)
-        # Terms whose factors are computed early come first.
+        # Products of factors that are computed early come first in the sum.
         terms = [f"u{j} * x{k - j}" for j in sorted(range(1, k), key=lambda j: (max(j, k - j), j))]
         terms += [f"u{k} * x0"] if k > 0 else []
         yield f"c{k} = -{' - '.join([*terms, f'linear * x{k}'])}"
@@ -157,10 +163,10 @@ def tangent(order, phase, constants):
 
 
 def squares(count):
-    """Yield lines of code that compute the first `count` coefficients u0, u1, ... of 3 k3 x^2.
+    """Yield lines of code that compute u0, u1, ..., the first `count` coefficients of 3 k3 x^2.
 
-    3 k3 x^2 is the slope of the spring's nonlinear force at Z1 = x. The lines read x0, x1, ... and
-    the variables of `coefficients`.
+    3 k3 x^2 is the slope of the spring's nonlinear force at Z1 = x. The lines read x0, x1, ..., the
+    Taylor coefficients of Z1, and the variables that the lines of `coefficients` set.
     """
     yield "triple = 3.0 * cubic"
     yield "sextuple = 6.0 * cubic"
@@ -172,10 +178,10 @@ def squares(count):
 
 
 def _lower_squares(n):
-    """Yield lines of code that update the coefficients s0, s1, ... of k3 l^2 after a new term of l.
+    """Yield lines of code that update k3 l^2 after the polynomial l has got the term x{n} t^n.
 
-    l = x0 + x1 t + ... + x{n} t^n, where x{n} is new. The lines add 2 k3 x{n} x{j} to s{n+j} for
-    each j < n, and set s{2n} = k3 x{n}^2. docs/explanation/series.md says what l is for.
+    s0, s1, ... are the coefficients of k3 l^2. The lines add 2 k3 x{n} x{j} to s{n+j} for each
+    j < n, and set s{2n} = k3 x{n}^2. docs/explanation/series.md says what l is for.
     """
     yield f"y{n} = double * x{n}"
     for j in range(n - n % 2, 2 * n, 2):
@@ -187,7 +193,7 @@ def _lower_squares(n):
 
 
 def _without_damping(k, drive):
-    """Yield lines of code that compute c{k}, the coefficient g{k} of Z1'' without damping."""
+    """Yield code that sets c{k}: coefficient k of Z1'' without damping and the wall's force."""
     n, odd = k // 2, k % 2
     last = k - n - 1
     if odd and last % 2 and last > 1:
@@ -212,9 +218,11 @@ def _without_damping(k, drive):
 
 
 def _accelerations(k, phase, loose):
-    """Yield lines of code that compute g{k} and x{k+2} from c{k}, and in contact also q{k+2}.
+    """Yield lines of code that compute x{k+2}, and in contact also q{k+2}, from c{k}.
 
-    q{k+2} follows from c{k} if `loose` is "c", and from m{k} (`motion`) if `loose` is "m".
+    x{k}, q{k} and c{k} are coefficients k of Z1, of the depth in the wall, and of Z1'' without
+    damping and the wall's force. If `loose` is "m", the lines compute q{k+2} not from c{k}, but
+    from m{k}, in which the acceleration across (`templates.across`) has been added to c{k}.
     """
     a, b = (f"a{k - 1}", f"b{k - 1}") if k > 0 else ("x1", "q1")
     factor = 1 / ((k + 1) * (k + 2))

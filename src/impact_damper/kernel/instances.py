@@ -2,9 +2,8 @@
 
 A module is made for a number of lanes, and for the orders of Taylor series in flight and in
 contact. Each lane holds one trajectory. A module contains the templates, which `branches` compiles,
-and kernels that compute Taylor series, which `straight_lines` compiles. With several lanes a step
-takes a third of the time per trajectory. All numbers of a step stand in a flat array of rows. Each
-row has one number for each lane.
+and kernels that compute Taylor series, which `straight_lines` compiles. All numbers of a step stand
+in a flat array of rows. Each row has one number for each lane.
 """
 
 import importlib.util
@@ -36,14 +35,15 @@ CONTACT_ORDER = 23
 # Groups of rows in the array of a step, in this order:
 # packed.NAMES    the packed parameters
 # STATE           the state Z1, Z1', Z2, Z2' at the beginning of the step, afterwards at its end
-# STEP            SIDE, TIME, LONGEST and TOLERANCE are arguments; SIDE and LENGTH are results
+# STEP            SIDE, TIME, LONGEST, TOLERANCE: arguments of the step; SIDE, LENGTH: results
 # SCRATCH, FREE   intermediate results
 # SERIES          Taylor coefficients, a row for each order k. E, H and D depend on parameters only:
 #   X  Z1                           Q  depth in a wall, Z2 - SIDE d0
 #   G  Z1'' without wall's force    U  slope of the spring's nonlinear force
 #   E  forcing over COSINE or SINE  H  DAMPING/k                       D  DASHPOT/k
 # A tangent is a solution of the variational equations. Groups of a tangent's rows, in this order:
-# STATE, KEPT     the tangent's state, and its Z2 while the loose mass sticks
+# STATE           the tangent's Z1, Z1', Z2, Z2'
+# KEPT            the tangent's Z2 at the beginning of a step in which the loose mass sticks
 # TANGENT_SERIES  coefficients of the tangent's Z1 (DX) and of the tangent's depth (DQ)
 STATE = "Y0 Y1 Y2 Y3".split()
 STEP = "SIDE TIME LONGEST TOLERANCE LENGTH".split()
@@ -66,9 +66,9 @@ from {branches.__name__} import bits, number, template
 from {equation.__name__} import forcing_amplitude, spring, spring_slope
 from {straight.__module__} import {straight.__name__}
 """
-# A kernel sums at most this many series.
+# Largest number of series that one kernel sums.
 SUMS = 6
-# Coefficients of x^0, x^2, x^4, ... in (cos x - 1)/x^2 (COSINES) and (sin x - x)/x^3 (SINES).
+# COSINES has the coefficients of x^0, x^2, x^4, ... in (cos x - 1)/x^2, SINES in (sin x - x)/x^3.
 COSINES = [(-1.0) ** k / math.factorial(2 * k) for k in range(1, 9)]
 SINES = [(-1.0) ** k / math.factorial(2 * k + 1) for k in range(1, 9)]
 
@@ -91,13 +91,12 @@ def instance(lanes, flight_order=FLIGHT_ORDER, contact_order=CONTACT_ORDER):
 
 
 def _source(writer):
-    """Return the source code of a module: constants, kernels for the series, and the templates."""
     constants = {
         "LANES": writer.lanes,
         "TANGENTS": writer.tangents,
         "FLIGHT_ORDER": writer.orders["flight"],
         "CONTACT_ORDER": writer.orders["contact"],
-        # `step.predict_length` extrapolates from the coefficients EARLY, EARLY + 1 and EARLY + 2.
+        # `step.predict_length` uses the Taylor coefficients of orders EARLY to EARLY + 2.
         "EARLY": 3 * (writer.orders["flight"] - 1) // 5 + 1,
         "SIZE": writer.rows["ROWS"] * writer.lanes,
         "TANGENT_SIZE": writer.rows["TANGENT_ROWS"] * writer.tangents,
@@ -109,7 +108,7 @@ def _source(writer):
     lines = "".join(f"{name} = {value}\n" for name, value in constants.items())
     templates = forcing, root_search, across, friction, contact, separation, step
     text = "\n\n".join([lines, writer.text(), *map(inspect.getsource, templates)])
-    # `template` wraps each function of a, or of a and d, so that kernels can call it.
+    # Kernels can call a function of a, or of a and d, after `branches.template` has wrapped it.
     pattern = r"^def (\w+)\((a|a, d)\):$(?!\n    for i in range\(\d+\):)"
     for name, arguments in re.findall(pattern, text, re.MULTILINE):
         text += f"\n\ndef call_{name}({arguments}):\n    {name}({arguments})\n"
@@ -118,9 +117,11 @@ def _source(writer):
 
 
 def rows(flight_order, contact_order):
-    """Return a dictionary from names of rows to indices. The index of a series is its first row.
+    """Return a dictionary with the index of each named row in the array of a step.
 
-    Other keys: PARTS (first row of partial sums), ROWS and TANGENT_ROWS (numbers of rows).
+    A series has a row for each order. Its name stands for the first of these rows. PARTS is the
+    index of the first row of partial sums. Two entries are numbers of rows: ROWS is how many rows
+    the array of a step has, and TANGENT_ROWS is how many the array of tangents has.
     """
     length = max(flight_order, contact_order) + 1
     single = {name: number for number, name in enumerate(SINGLE)}
@@ -147,18 +148,19 @@ class Writer:
         self.rows = rows(flight_order, contact_order)
 
     def at(self, row, k=0):
-        """Return code such as "a[48 + i]": lane i's number in the row k rows after `row`."""
+        """Return the code, such as "a[48 + i]", of lane i's number in a row: k rows after `row`."""
         index = (self.rows[row] + k) * self.lanes
         return f"a[{index} + i]" if self.lanes > 1 else f"a[{index}]"
 
     def at_tangent(self, row, k=0):
-        """Return code such as "d[8 + i]": tangent i's number in the row k rows after `row`."""
+        """Return the code, such as "d[8 + i]", of tangent i's number in a row: k after `row`."""
         return f"d[{(self.rows.get(row, 0) + k) * self.tangents} + i]"
 
     def function(self, name, lines, tangent=False, first=(), side_by_side=4):
-        """Return the source code of a kernel that executes `lines` for each lane.
+        """Return the source code of a kernel that executes the lines of code `lines` for each lane.
 
-        With one lane the lines `first` may come before. They use `side_by_side` numbers at once.
+        With one lane, the kernel may begin with other lines of code, `first`. A line of `first`
+        computes `side_by_side` numbers at once, in a vector of the processor.
         """
         arguments, lanes = ("a, d", self.tangents) if tangent else ("a", self.lanes)
         text, calls = "", ""
@@ -171,16 +173,16 @@ class Writer:
         return f"{text}def {name}({arguments}):\n{calls}"
 
     def moving(self, phase):
-        """Return "X", the series of Z1, or in contact "XQ", with the series Q of the depth."""
+        """Return the names of the series in a step: "X" for Z1, in contact also "Q": "XQ"."""
         return "XQ" if phase == "contact" else "X"
 
     def constant_series(self):
-        """Return the code of a kernel for the series that depend on parameters only: E, H, D."""
+        """Return the code of a kernel that computes the series that depend on parameters only."""
         lines = (self._computed(k, "EHD") for k in range(max(self.orders.values()) - 1))
         return self.function("constant_series", self._stored(chain.from_iterable(lines), "EHD"))
 
     def _computed(self, k, names):
-        """Yield lines of code for coefficient k of the series in `names`, such as "EHD"."""
+        """Yield lines that compute coefficient k of the series E, H and D, if in `names`."""
         factor = f"{1 / k!r} * " if k > 1 else ""
         if "E" in names and k < 2:
             beginning = [f"w = {self.at('FREQUENCY')}", "e0 = 1.0"], ["ww = w * w", "e1 = -w"]
@@ -192,10 +194,11 @@ class Writer:
             yield f"d{k} = {factor}{self.at('DASHPOT')}"
 
     def _constants(self, phase, tangent):
-        """Return a function that returns lines of code for coefficient k of the series E, H, D.
+        """Return the argument `constants` of `equation.motion`, or of `equation.tangent`.
 
-        With one lane the lines load the coefficient. With several lanes the lines compute the
-        coefficient, because the trajectory in a lane can change after each step.
+        With one lane, the lines that `constants(k)` returns load coefficients from the array. With
+        several lanes, the lines compute the coefficients, because each step of a lane can belong
+        to another trajectory.
         """
         names = ("" if tangent else "E") + ("HD" if phase == "contact" else "H")
         if self.lanes > 1:
@@ -203,9 +206,10 @@ class Writer:
         return lambda k: [f"{name.lower()}{k} = {self.at(name, k)}" for name in names]
 
     def series(self, phase, across=False):
-        """Return the code of a kernel for the series X and G of a step, in contact also Q.
+        """Return the code of a kernel that computes the Taylor series of a step.
 
-        If `across` is true, Q includes gravity, friction and a moving base (template `across`).
+        It computes X (of Z1), G (of Z1'' without the wall's force), and in contact Q (of the depth
+        in the wall). Q takes gravity, friction and a moving base into account if `across` is true.
         """
         lines = [
             f"cosine = {self.at('COSINE')}",
@@ -235,7 +239,7 @@ class Writer:
         return self.function(name, self._stored(lines, f"{self.moving(phase)}G"))
 
     def squares(self, phase):
-        """Return the code of a kernel that computes the series U from the series X."""
+        """Return the code of a kernel that computes U (series of 3 k3 Z1^2) from X (of Z1)."""
         count = self.orders[phase] - 1
         lines = list(equation.coefficients(self.at))
         lines += [f"x{k} = {self.at('X', k)}" for k in range(count)]
@@ -243,7 +247,7 @@ class Writer:
         return self.function(f"{phase}_squares", lines)
 
     def tangent_series(self, phase):
-        """Return the code of a kernel that computes the series of a tangent from the series U."""
+        """Return the code of a kernel that computes the Taylor series of tangents in a step."""
         order, names = self.orders[phase], self.moving(phase)
         lines = [
             *(f"u{k} = {self.at('U', k)}" for k in range(order - 1)),
@@ -308,18 +312,18 @@ class Source(Writer):
             self.sums("flight_snap", "flight", "T", {"SNAP": "|G''|"}),
             self.sums("contact_jerk", "contact", "LENGTH", {"Z1_JERK": "|G'|"}),
             self.sums("contact_bound", "contact", "LENGTH", bound, self._tail("contact")),
-            # Upper bound on the change of Z1': sum of the moduli of its terms, without the first.
+            # Upper bound on the change of Z1': sum of its terms' moduli, without the first term.
             self.sums("flight_change", "flight", "T", {"CHANGE": "|X'|"}, changed, begin=2),
         ]
         return f"{IMPORTS}\n\n" + "\n\n".join(functions)
 
     def sums(self, name, phase, time, results, then=(), begin=0, terms=99):
-        """Return the source code of a kernel that sums series at the time in the row `time`.
+        """Return the source code of a kernel that sums Taylor series.
 
-        In `results` the key is the row for a sum, and the value a series: "X" is the series X, "X'"
-        its derivative, and "|X|" the moduli of the terms of X. A sum begins at the order `begin`
-        and has at most `terms` terms. The kernel ends with the lines `then`. For speed a sum is
-        computed as four partial sums, each of which has every fourth term.
+        The series are summed at the time that the row named `time` has. In `results` a key is the
+        name of the row for a sum, and its value is the series: "X" is the series X, "X'" its first
+        derivative, and "|X|" the series of the moduli of its terms. A sum begins at the order
+        `begin` and has at most `terms` terms. The kernel ends with the lines of code `then`.
         """
         lines = [*self._time(time, phase)]
         first = list(lines) if self.lanes == 1 else []
@@ -344,7 +348,7 @@ class Source(Writer):
         yield f"{_widened(parts[0])} = part"
 
     def circular(self):
-        """Return the code of a kernel that sums the series COSINES and SINES at ANGLE."""
+        """Return the code of a kernel that sums the series COSINES and SINES at x = ANGLE."""
         cosine, sine = self.at("CIRCLE_COSINE"), self.at("CIRCLE_SINE")
         angle = [f"t = {self.at('ANGLE')}", "u = t * t", "v = u * u"]
         if self.lanes == 1:
@@ -364,7 +368,6 @@ class Source(Writer):
         return f"abs({number})" if series.startswith("|") else number
 
     def _wall(self):
-        """Yield lines of code for the second and third derivatives of Z1 and of the depth."""
         mobility = f"(1.0 + {self.at('INVERSE_MASS_RATIO')})"
         for force, depth_row, rate, derivative in (
             ("force", "DEPTH", "DEPTH_SLOPE", "CURVE"),
@@ -378,7 +381,7 @@ class Source(Writer):
             yield f"{z1} -= {force}"
 
     def _tail(self, phase):
-        """Yield code that stores in TAIL the largest modulus of the velocities' last two terms."""
+        """Yield lines that set TAIL to the largest modulus of the velocities' last two terms."""
         last = self.orders[phase]
         yield "last = 0.0"
         for row in self.moving(phase):
@@ -390,7 +393,7 @@ class Source(Writer):
         yield f"{self.at('TAIL')} = {' * '.join(['last', *factors])}"
 
     def tangent_value(self, phase):
-        """Return the code of a kernel that sums the series of a tangent at the time T."""
+        """Return the code of a kernel that computes tangents at time T, from their series."""
         lines = [*self._time("T", phase)]
         for number, name in enumerate(self.moving(phase)):
             terms = [self.at_tangent(f"D{name}", k) for k in range(self.orders[phase] + 1)]
@@ -409,7 +412,6 @@ class Source(Writer):
 
 
 def _widened(number):
-    """Return the code for a vector that begins at an array entry: "a[3 + i]" for "a[3]"."""
     return number.replace("]", " + i]")
 
 
@@ -424,10 +426,10 @@ def _paired(c, result):
 
 
 def _sum(c, result, parts, done):
-    """Yield code that sums the terms c[k] t^k as four partial sums, each of every fourth term.
+    """Yield lines of code that set `result` to the sum of c[k] t^k, from four partial sums.
 
-    `parts` are the partial sums of the first `done` terms. The lines add the other terms in rising
-    order, because the highest coefficients are computed last.
+    Each partial sum has every fourth term. `parts` are the partial sums of the first `done` terms.
+    The lines add the later terms in rising order, because high coefficients are computed last.
     """
     for j in range(4):
         yield f"part{j} = {parts[j]}"

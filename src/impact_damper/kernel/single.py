@@ -23,7 +23,7 @@ _ONE = instances.instance(1)
 constant_series, find_sway = _ONE.constant_series, _ONE.find_sway
 flight_step, contact_step = by_address(_ONE.flight_step), by_address(_ONE.contact_step)
 SIZE, TANGENT_SIZE, COLUMNS = _ONE.SIZE, _ONE.TANGENT_SIZE, _ONE.TANGENTS
-# Index in a workspace at which the tangents' numbers begin, a multiple of CACHE_LINE.
+# Index in a workspace at which the numbers of the tangents begin. It is a multiple of CACHE_LINE.
 BEHIND = -(-SIZE // CACHE_LINE) * CACHE_LINE
 SIDE, TIME, LONGEST = _ONE.SIDE, _ONE.TIME, _ONE.LONGEST
 TOLERANCE, LENGTH = _ONE.TOLERANCE, _ONE.LENGTH
@@ -31,8 +31,8 @@ PARAMETERS, STATE, KNOWN, X, Q = _ONE.FREQUENCY, _ONE.Y0, _ONE.KNOWN, _ONE.X, _O
 T, SWAY, SWAY_SLOPE, STUCK = _ONE.T, _ONE.SWAY, _ONE.SWAY_SLOPE, _ONE.STUCK
 DRAW, BASE_COSINE, BASE_SINE, E = _ONE.DRAW, _ONE.BASE_COSINE, _ONE.BASE_SINE, _ONE.E
 FLIGHT_ORDER, CONTACT_ORDER = _ONE.FLIGHT_ORDER, _ONE.CONTACT_ORDER
-# Indices in a workspace at which the tangents' series begin, for Z1 (DX) and for the depth in a
-# wall (DQ). Each coefficient has COLUMNS numbers, one for each tangent.
+# DX is the index in a workspace at which the Taylor coefficients of the tangents' Z1 begin. At DQ
+# the coefficients of the tangents' depth begin. Each order has COLUMNS numbers, one a tangent.
 _ROWS = rows(FLIGHT_ORDER, CONTACT_ORDER)
 DX, DQ = (BEHIND + _ROWS[name] * COLUMNS for name in ("DX", "DQ"))
 
@@ -42,7 +42,7 @@ PIECES = 8
 
 @kernel
 def workspace():
-    """Return an array with room for all numbers of a step, for a trajectory and its tangents."""
+    """Return an array with room for all numbers of a step of one trajectory and its tangents."""
     return aligned(BEHIND + TANGENT_SIZE)
 
 
@@ -55,7 +55,7 @@ def assign(target, state):
 
 @kernel
 def polynomial(c, order, t):
-    """Return the value and the derivative at t of the polynomial c[0] + c[1] t + ..."""
+    """Return the polynomial c[0] + c[1] t + ... + c[order] t^order and its derivative at t."""
     value = c[order]
     slope = 0.0
     for k in range(order - 1, -1, -1):
@@ -66,11 +66,7 @@ def polynomial(c, order, t):
 
 @kernel
 def extremum(c, order, length, start):
-    """Return the largest modulus of a polynomial over [0, `length`], or `start` if this is larger.
-
-    c[0] to c[`order`] are the coefficients of the polynomial. Turning points are sought only if an
-    upper bound on the modulus exceeds `start`.
-    """
+    """Return the largest modulus of the polynomial c on [0, `length`], but at least `start`."""
     farthest = 0.0
     for k in range(order, 0, -1):
         farthest = (farthest + abs(c[k])) * length
@@ -89,7 +85,7 @@ def extremum(c, order, length, start):
         t = length * piece / PIECES
         value, slope = polynomial(c, order, t)
         best = max(best, abs(value))
-        # The modulus has a maximum in the piece if it grows at the beginning and falls at the end.
+        # The modulus has a maximum in a piece if it grows at the beginning and falls at the end.
         if slope * fall < 0.0 and value * slope < 0.0:
             turn = turning_time(c, order, t - length / PIECES, t, fall, slope)
             best = max(best, abs(polynomial(c, order, turn)[0]))
@@ -129,7 +125,7 @@ def write_trajectory(p, y, side, tolerance, a):
 
 @kernel_only
 def load(p, y, side, tolerance, a):
-    """Write a trajectory into a workspace, and the series that depend on parameters only."""
+    """Write a trajectory into a workspace, and the series that depend on the parameters p only."""
     kept = True
     for i in (FREQUENCY, DAMPING, DASHPOT):
         kept = kept and a[PARAMETERS + i] == p[i]
@@ -140,7 +136,7 @@ def load(p, y, side, tolerance, a):
 
 @kernel_only
 def step_loaded(t, longest, a):
-    """Do one step of the trajectory in a workspace. Return the step's length and the new `side`."""
+    """Do a step with the trajectory in workspace a. Return the step's length and the side after."""
     a[TIME] = t
     a[LONGEST] = longest
     if a[SIDE] == 0.0:
@@ -152,7 +148,7 @@ def step_loaded(t, longest, a):
 
 @kernel_only
 def unload(y, a):
-    """Copy the state from a workspace into y."""
+    """Copy the state that is in the workspace a to y."""
     for i in range(4):
         y[i] = a[STATE + i]
 
@@ -162,8 +158,9 @@ def step(p, y, side, t, longest, tolerance, work):
     """Integrate one step, at most up to the first event and at most over the time `longest`.
 
     The step begins at the time t in the state y (4,). The state at the end replaces y. Return the
-    step's length, and `side` at the step's end. `work` is a `workspace()`. Afterwards it has the
-    series of Z1 at index X, and in contact the series of the depth Z2 - `side` d0 at index Q.
+    step's length, and the side at its end. `work` is a `workspace()`. After the step it has the
+    Taylor coefficients of Z1 from index X on. After a step in contact it also has the coefficients
+    of the depth Z2 - `side` d0 from index Q on.
 
     If the motion has escaped (`equation.no_return`), the returned length is `longest`, because
     steps on the way to infinity become ever shorter. The true length is `work[LENGTH]`.
@@ -177,7 +174,7 @@ def step(p, y, side, t, longest, tolerance, work):
 
 @kernel_only
 def state_in_step(work, side, y, t):
-    """Return the state at time t after the beginning of the last step. At t = 0 it was y."""
+    """Return the state at time t of the last step in `work`. The state at t = 0 was y."""
     a = pointer(work)
     order = FLIGHT_ORDER if side == 0 else CONTACT_ORDER
     x, v = polynomial(work[X:], order, t)
@@ -196,7 +193,7 @@ def state_in_step(work, side, y, t):
 
 @kernel_only
 def series_of_loose_mass(work, side, y, c):
-    """Fill c with the Taylor series of Z2 in a step that began in the state y. Return the order."""
+    """Fill c with the Taylor series of Z2 in the last step in `work`. Return the series' order."""
     a = pointer(work)
     order = FLIGHT_ORDER if side == 0 else CONTACT_ORDER
     for k in range(order + 1):
@@ -218,7 +215,7 @@ def series_of_loose_mass(work, side, y, c):
 
 @kernel
 def side_of(p, y):
-    """Return the wall in contact with the loose mass in the state y: -1 or 1, or 0 in flight."""
+    """Return the wall that the loose mass presses in the state y: -1 or 1, or 0 in flight."""
     wall = 1 if y[2] > 0.0 else -1
     depth = abs(y[2]) - p[CLEARANCE]
     if depth < 0.0 or (p[LAG] > 0.0 and depth + p[LAG] * wall * y[3] <= 0.0):

@@ -1,8 +1,7 @@
 """Find the source files on which a module depends, by following its imports.
 
 A digest of these files names the folder of compiled kernels. The workflow runs a job again if a
-file on which the job depends was edited. This module does not import numba and NumPy, which load
-slowly, because every dry run of the workflow imports this module.
+file on which the job depends was edited. This module does not import the slow numba and NumPy.
 """
 
 import ast

@@ -1,8 +1,8 @@
 """Compile arithmetic without branches ("straight lines"), without numba's slow type inference.
 
 The Taylor series of a step take thousands of operations. numba's type inference needs a millisecond
-for each. Each lane holds one trajectory, and all lanes execute the same lines. With one lane, one
-instruction can operate on two numbers, a pair.
+for each. Each lane holds one trajectory. With one lane, an instruction can operate on two numbers,
+a pair.
 """
 
 import ast
@@ -27,17 +27,17 @@ def straight(function):
     """Decorate a function whose body is a loop `for i in range(lanes)` of assignments.
 
     The number of lanes is at most WIDTH, or a multiple of WIDTH. The left side of `=`, `+=` or `-=`
-    is a name, `a[1 + i]`, or, with one lane, `a[1]`. The right side consists of names, constants,
-    `a[1 + i]`, `a[1]` (equal in all lanes), `(1.0, 2.0)[i]` (one constant per lane), `+`, `-`, `*`,
-    `/`, `abs(x)`, and `max(x, y)`, which means `x if x > y else y`. `(x, y)` is a pair, and
-    `x, y = ...` unpacks a pair. An operator acts on each of the two numbers of a pair.
+    is a name, an entry `a[1 + i]` or, with one lane, `a[1]`. The right side consists of names,
+    constants, `a[1 + i]`, `a[1]` (equal in all lanes), `(1.0, 2.0)[i]` (a constant for each lane),
+    `+`, `-`, `*`, `/`, `abs(x)`, and `max(x, y)`, which means `x if x > y else y`. `(x, y)` is a
+    pair of numbers, and `x, y = ...` unpacks a pair. An operator acts on both numbers of a pair.
     """
     function.write = write
     return function
 
 
 def write(function, builder, pointers):
-    """Write the LLVM code of a function decorated with `straight`. `pointers` are its arguments."""
+    """Write LLVM code for a function decorated with `straight`, called with the given pointers."""
     lines = _Lines(builder, function)
     (loop,) = lines.tree.body
     lanes = loop.iter.args[0].value
@@ -96,10 +96,7 @@ class _Lines(Body):
         return self.arithmetic.pair(*map(self.visit, node.elts))
 
     def visit_BinOp(self, node):
-        """Return a sum, difference, product or quotient.
-
-        a*b + c becomes fmuladd(a, b, c), and a*b + c*d becomes fmuladd(c, d, a*b).
-        """
+        """Return the result of an operator. A sum of a product and a number becomes a fmuladd."""
         kind, left, right = type(node.op), node.left, node.right
         if kind in (ast.Add, ast.Sub) and is_product(right):
             first = self.visit(right.left)

@@ -33,7 +33,7 @@ def unload_tangents(tangents, d):
 
 @kernel_only
 def step_all(count, t, longest, a, d):
-    """Do a step of a trajectory and of `count` tangents. Return its length and the new `side`."""
+    """Do a step of a trajectory and `count` tangents. Return the step's length and final side."""
     before = a[SIDE]
     length, side = step_loaded(t, longest, a)
     if count > 0:
@@ -46,7 +46,7 @@ def step_all(count, t, longest, a, d):
 
 @kernel
 def step_with_tangents(p, y, tangents, side, t, longest, tolerance, work):
-    """Do a step like `single.step`. Integrate up to four `tangents`, shape (m, 4), in place."""
+    """Do a step as `single.step` does. The new tangents replace `tangents`, (m, 4) with m <= 4."""
     a, d = pointer(work), pointer(work[BEHIND:])
     load(p, y, side, tolerance, a)
     load_tangents(tangents, d)
@@ -58,10 +58,11 @@ def step_with_tangents(p, y, tangents, side, t, longest, tolerance, work):
 
 @kernel
 def advance(p, y, tangents, side, t, end, tolerance, work):
-    """Integrate from time t to time `end`. `step_with_tangents` describes the other arguments.
+    """Integrate a trajectory and its tangents from the time t to the time `end`.
 
-    Return `side` at the end, the number of contacts that began, and the total time in contact.
-    A motion that escapes (`equation.no_return`) stops in the state at the escape.
+    The final state and tangents replace y and `tangents`. Return the side at the end, the number
+    of contacts that began, and the total time in contact. The integration ends early if the motion
+    escapes (`equation.no_return`).
     """
     contacts = 0
     touching = 0.0

@@ -29,7 +29,7 @@ PHASES = ("state_phase", "orbit_phase")
 
 
 class Model(NamedTuple):
-    """A dimensionless oscillator and its damper. `machine` is None for an `Oscillator`."""
+    """A dimensionless oscillator and its damper, and the `Machine` if the user gave a machine."""
 
     oscillator: Oscillator
     damper: Damper | None
@@ -53,10 +53,7 @@ class Model(NamedTuple):
 
 
 def read_system(system, damper=None, *, needs_damper=False) -> Model:
-    """Check `system` and `damper`, and return their `Model`. The damper may be None.
-
-    If `needs_damper` is true, None raises TypeError. An unsuitable damper raises ValueError.
-    """
+    """Check `system` and `damper`. Return their `Model`. `damper` may be None if not needed."""
     if isinstance(system, Machine):
         if damper is None and not needs_damper:
             return Model(system.oscillator(), None, None, system)
@@ -82,7 +79,7 @@ def read_forced(system, damper, frequency, *, needs_damper=False) -> Model:
 def read_swept_damper(system, damper, frequency) -> Model:
     """Return the model for a sweep of the clearance. The damper's own clearance does not matter.
 
-    With an `Oscillator` the damper may be a dictionary of parameters without the clearance.
+    If `system` is an `Oscillator`, the damper may be a dictionary of its other parameters.
     """
     if isinstance(system, Oscillator) and isinstance(damper, dict):
         allowed = {"mass_ratio", "restitution", "contact_stiffness"}
@@ -102,7 +99,6 @@ def read_numbers(scales, name, values, kind="number", **bounds) -> np.ndarray:
 
 
 def _numbered(values):
-    """Return pairs (index, value) of a sequence or a single value. Values keep their units."""
     if isinstance(values, (list, tuple)) or getattr(values, "ndim", 0) == 1:
         return enumerate(values)
     return enumerate(np.atleast_1d(values) if not hasattr(values, "units") else [values])
@@ -125,7 +121,7 @@ def read_frequencies(scales, values) -> np.ndarray:
 
 
 def read_span(scales, name, span, kind, **bounds) -> tuple[float, float]:
-    """Return the least and the greatest value in `span` as dimensionless numbers."""
+    """Return the two numbers of `span`, the least and the greatest value, dimensionless."""
     ends = read_numbers(scales, name, span, kind, **bounds)
     if ends.shape != (2,) or not ends[0] < ends[1]:
         raise ValueError(f"{name} = {shown(span)}: must be two numbers, least and greatest")
@@ -133,9 +129,10 @@ def read_span(scales, name, span, kind, **bounds) -> tuple[float, float]:
 
 
 def read_radius(scales, radius, whole_gap=False) -> float | None:
-    """Return the dimensionless radius of the ball in which random starts lie, or None.
+    """Return the dimensionless radius of the ball, in the space of states, of random starts.
 
-    If `whole_gap` is true, None is an error, and 0 is allowed.
+    If `radius` is None, return None, or raise an error if `whole_gap` is true. A radius of 0 is
+    allowed only if `whole_gap` is true.
     """
     if radius is None:
         if whole_gap:

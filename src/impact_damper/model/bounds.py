@@ -1,4 +1,4 @@
-"""Allowed ranges of parameters and arguments, and checks. Values in the ranges let every run end.
+"""Allowed ranges of parameters and arguments, and checks. With values in them every run ends.
 
 A range is a dictionary of keyword arguments of `check_number` or `check_count`.
 """
@@ -24,7 +24,7 @@ AMPLITUDE_RANGE = {"least": 0.0, "most": 1e6}
 STIFFNESS_RANGE = {"least": 1e-6, "most": 1e9}
 # Largest allowed ratio between the natural frequency of the contact and the forcing frequency.
 MOST_STIFF = 1e6
-# Range of the radius of the ball in which random starts lie.
+# Range of the dimensionless radius of the ball in which random starts lie.
 RADIUS_RANGE = {"above": 0.0, "most": 1e3}
 # Largest radius of the ball of random starts, divided by the clearance.
 MOST_RADIUS = 1e3
@@ -37,18 +37,18 @@ FURTHER_RANGE = {"least": 0, "most": 10**7}
 # Largest number of runs in one call of a function. Memory must hold the results of all runs.
 MOST_RUNS = 10**6
 RUNS_RANGE = {"least": 1, "most": MOST_RUNS}
-# Number of cycles in a run (argument `periods`).
+# Range of the number of cycles in a run (argument `periods`).
 PERIODS_RANGE = {"least": 1, "most": 10**6}
-# Number of cycles in a run that measures how long chaos lasts.
+# Range of the number of cycles in a run that measures how long chaos lasts.
 LIFETIME_RANGE = {"least": 100, "most": 10**7}
 SEED_RANGE = {"least": 0, "most": 2**63 - 1}
-# Largest |displacement| and |velocity| of a start. Larger values make a cycle last minutes.
+# Largest |displacement| and |velocity| of a start. With larger ones a cycle takes minutes.
 FARTHEST, FASTEST = 1e3, 1e6
-# Highest harmonic N of a harmonic balance. Memory grows as N^2, and computing time as N^3.
+# Range of the highest harmonic N of a harmonic balance. It needs memory ~ N^2 and time ~ N^3.
 HARMONIC_RANGE = {"least": 1, "most": 2**14}
 PACKAGE = f"{__name__.partition('.')[0]}."
 POINTS_RANGE = {"least": 2, "most": 10**5}
-# Range of the tolerance when integrators are compared.
+# Range of the tolerance of integrators that are compared with each other.
 METHOD_TOLERANCE_RANGE = TOLERANCE_RANGE | {"most": 0.1}
 
 
@@ -61,7 +61,7 @@ def warn(text) -> None:
 
 
 def unlabelled(name, value):
-    """Return the number in a 0-dimensional array without units. Return other values unchanged."""
+    """Return the number in a dimensionless array of one number. Return other values unchanged."""
     if getattr(value, "ndim", None) != 0 or not hasattr(value, "item"):
         return value
     units = getattr(value, "attrs", {}).get("units", "1")
@@ -81,7 +81,8 @@ def check_number(
     """Return `value` as a float, or raise an error if it is not allowed.
 
     Raise TypeError for a value that is no real number, such as True. Raise ValueError if the value
-    is not finite, or is out of bounds. The message shows `given`, if it is not empty.
+    is not finite, or is out of bounds. The message shows the text `given` in place of the value, if
+    `given` is not empty.
     """
     value = unlabelled(name, value)
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
@@ -127,7 +128,7 @@ def check_frequency(value):
 
 
 def check_starts(starts, points, least=1):
-    """Check `starts`, the number of starts at each of `points` values of a parameter."""
+    """Raise an error if so many starts, at each of `points` values of a parameter, are too many."""
     most = max(least, MOST_RUNS // points)
     check_count("starts", starts, least=least, most=most, why=f"memory holds {MOST_RUNS} runs")
 
@@ -139,7 +140,7 @@ def nearest(name, known) -> str:
 
 
 def names_arguments(function):
-    """Decorate a public function or class so that errors about arguments list all arguments.
+    """Decorate a public function or dataclass. Errors about unknown arguments list the known ones.
 
     The docstring of a dataclass also gets a list of its fields, with the meaning of each.
     """

@@ -1,11 +1,14 @@
 """The two rules for the end of a contact, and the damping ratio that gives a restitution.
 
-During a contact u'' + 2 z u' + u = 0, if no other forces act. u is the penetration of the wall, z
-the damping ratio, u + 2 z u' the force of the wall. Time is multiplied by the natural frequency.
-By `zero_penetration`, the paper's rule, a contact ends when u = 0, and equation (25) gives z. If
-z > 0, the wall pulls just before. By `no_tension` a contact ends when the force falls to 0. The
-restitution is then exp(-(pi - 2 A) tan A) with z = sin(A) if z < 1 (Schwager and Poeschel, Physical
-Review E 78, 2008, 051304), and exp(-2 B coth B) with z = cosh(B) if z > 1.
+During a contact u'' + 2 z u' + u = 0, if no other forces act. u is the depth of the loose mass in
+the wall, z the damping ratio, and u + 2 z u' the force of the wall. The unit of time is 1/n, where
+n is the natural frequency of the contact.
+
+By the rule `zero_penetration` (of the paper) a contact ends when u = 0. Equation (25) gives z. If
+z > 0, the wall pulls the loose mass at the end of the contact. By the rule `no_tension` a contact
+ends when the force of the wall falls to 0. If z < 1, the restitution is exp(-(pi - 2 A) tan A) with
+z = sin(A) (Schwager and Poeschel, Physical Review E 78, 2008, 051304). If z > 1, the restitution is
+exp(-2 B coth B) with z = cosh(B).
 """
 
 import math
@@ -17,7 +20,7 @@ CRITICAL = 1e-6
 
 
 def restitution(ratio) -> float:
-    """Return the restitution that follows from a damping ratio if the walls never pull."""
+    """Return the restitution of a contact with this damping ratio, by the rule `no_tension`."""
     if abs(ratio - 1) < CRITICAL:
         return math.exp(-2)
     if ratio < 1:
@@ -29,7 +32,7 @@ def restitution(ratio) -> float:
 
 @cache
 def damping_ratio(restitution_, rule=ZERO_PENETRATION) -> float:
-    """Return the damping ratio of contacts that have this restitution and end by this rule."""
+    """Return the damping ratio of contacts with the restitution `restitution_`, by `rule`."""
     logarithm = math.log(1 / restitution_)
     if rule == ZERO_PENETRATION or not logarithm:
         return logarithm / math.hypot(math.pi, logarithm)

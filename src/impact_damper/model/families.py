@@ -13,7 +13,7 @@ from impact_damper.model.parameters import Damper, Oscillator
 PARAMETERS = {"frequency": None}
 PARAMETERS |= dict.fromkeys(("damping", "cubic", "force", "unbalance"), Oscillator)
 PARAMETERS |= dict.fromkeys(("mass_ratio", "clearance", "restitution", "contact_stiffness"), Damper)
-# For these parameters the coordinate along a branch is the parameter, for others its logarithm.
+# Parameters that are the coordinate along a branch. Other parameters have their logarithm there.
 LINEAR = ("frequency", "cubic", "force", "unbalance", "restitution")
 # Indices, in packed parameters, of F and U in the amplitude F + U W^2 of the forcing.
 FORCING = {"force": FORCE, "unbalance": UNBALANCE}
@@ -29,9 +29,10 @@ def facts_of(parameter) -> tuple:
 
 
 def read_followed(model, parameter, span) -> tuple:
-    """Check `parameter` and `span`. Return the key in PARAMETERS and the dimensionless span.
+    """Check `parameter` and `span`. Return the parameter's key in PARAMETERS and the scaled span.
 
-    A `Machine` has other names for some parameters. The value in `model` must lie in the span.
+    `parameter` is the name that the user gives, for a `Machine` the machine's name. The model's own
+    value of the parameter must lie in the span.
     """
     scales, damper = model.scales, model.damper
     names = {facts_of(name)[0] if scales.si else name: name for name in PARAMETERS}
@@ -51,10 +52,11 @@ def read_followed(model, parameter, span) -> tuple:
 
 
 def family_of(oscillator, damper, frequency, parameter, span):
-    """Return a function from a coordinate to packed parameters, and three values of the coordinate.
+    """Return the packed parameters as a function of a coordinate, and values of the coordinate.
 
-    The coordinate is `parameter` or its logarithm (LINEAR). The values belong to the given system
-    and, as a pair, to the ends of `span`. Too stiff a contact at an end raises ValueError.
+    The coordinate is the value of `parameter`, or the logarithm of this value if `parameter` is not
+    in LINEAR. The second result is the coordinate of the given system. The third result is a pair,
+    the coordinates of both ends of `span`. Raise ValueError if the contact at an end is too stiff.
     """
     part = {None: None, Oscillator: oscillator, Damper: damper}[PARAMETERS[parameter]]
     value = frequency if part is None else getattr(part, parameter)

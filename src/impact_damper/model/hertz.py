@@ -11,8 +11,8 @@ from typing import NamedTuple
 from impact_damper.model.bounds import names_arguments
 from impact_damper.model.units import convert, optional, physical
 
-# An elastic impact lasts DURATION q/v. q is the largest compression, and v the speed before it.
-# DURATION is (4/5) sqrt(pi) Gamma(2/5)/Gamma(9/10).
+# An elastic impact lasts DURATION q/v. q is the largest compression, and v the relative speed
+# before the impact. DURATION is (4/5) sqrt(pi) Gamma(2/5)/Gamma(9/10).
 DURATION = 2.9432752
 # A material under a ball yields if p0, the pressure at the centre of the contact, is at least YIELD
 # times the yield strength (Johnson, section 6.1, for Poisson's ratio nu = 0.3).
@@ -104,13 +104,14 @@ class HertzContact:
         return (5 * mass * speed**2 / (4 * self.coefficient)) ** 0.4
 
     def impact(self, speed, mass) -> Impact:
-        """Return the `Impact` of elastic bodies. `compression` explains the arguments."""
+        """Return the `Impact` at a relative speed (m/s). `mass` is the reduced mass (kg)."""
         q = self.compression(speed, mass)
         return Impact(q, self.coefficient * q**1.5, DURATION * q / speed)
 
     def stiffness(self, speed, mass) -> float:
-        """Return the stiffness k (N/m) of a linear spring that the same impact compresses as far.
+        """Return the stiffness k (N/m) of a linear spring that an impact compresses as far.
 
-        k q^2/2 = m v^2/2 (`compression` explains q, m, v). k q is 4/5 of the `force` of `Impact`.
+        It follows from k q^2 = m v^2, with q, m and v as in `compression`. The largest force of the
+        spring, k q, is 4/5 of the largest force of the contact.
         """
         return 0.8 * self.coefficient * self.compression(speed, mass) ** 0.5

@@ -1,7 +1,4 @@
-"""Find the machine that fits a measured curve, by least squares.
-
-NumPy and SciPy are imported in functions, so that dry runs of Snakemake import this module fast.
-"""
+"""Find the machine that fits a measured curve. Functions import the slow NumPy and SciPy."""
 
 import csv
 import re
@@ -15,16 +12,16 @@ from impact_damper.model.units import QUANTITIES, check_si
 COLUMN = re.compile(r"\s*([a-z]+)[\s_\[(]+([^\s\])]+)[\])]?\s*")
 FEWEST = 20
 SPRING = ("linear_stiffness", "damping", "cubic_stiffness")
-# `from_response` divides a residual by a slope of at least FOLD, and makes PASSES fits in turn.
+# `from_response` makes PASSES fits in turn. It divides residuals by a slope of at least FOLD.
 FOLD, PASSES = 0.1, 6
 
 
 class Identified(NamedTuple):
     """A machine found by a fit, and the uncertainties of its values.
 
-    `uncertainties` has the standard uncertainty of each fitted field in SI units. It assumes that
-    errors of the samples are independent and equally large. `noise` is the standard deviation of
-    the residuals: in m for a decay, relative for a response. `ended` says how the fit ended.
+    `uncertainties` has the standard uncertainty of each fitted field of the machine in SI units, if
+    the errors of the samples are independent and equally large. `noise` is the standard deviation
+    of the residuals, in m for a decay, and relative for a response. `ended` says how the fit ended.
     """
 
     machine: object
@@ -133,10 +130,7 @@ def from_response(cls, data, *, force) -> Identified:
 
 
 def _fit(residuals, guess, scale):
-    """Return fitted parameters, standard errors, standard deviation of residuals, and a message.
-
-    The function `residuals` maps an array of n columns of parameters to n columns of residuals.
-    """
+    """Return the fitted parameters, their standard errors, the residuals' deviation, a message."""
     import numpy as np
     from scipy.optimize import least_squares
 
@@ -157,10 +151,7 @@ def _fit(residuals, guess, scale):
 
 
 def _free(time, parameters):
-    """Return the displacement of an unforced mass of 1 kg, shape (times, sets).
-
-    A column of `parameters` is a set: k, c, k3, displacement and velocity at the first time.
-    """
+    """Return displacements of unforced masses of 1 kg: rows are times, columns are the masses."""
     import numpy as np
     from scipy.integrate import solve_ivp
 
@@ -222,7 +213,6 @@ def _resonance(w, amplitude, force):
 
 
 def _read(data, kinds):
-    """Return two arrays in SI units, from two columns of a CSV file or from a pair of arrays."""
     import numpy as np
 
     is_file = isinstance(data, (str, Path))

@@ -52,8 +52,8 @@ class MachineDamper:
     def check_for(self, machine):
         """Raise ValueError if a value of the damper is out of the range allowed for a machine.
 
-        The gap must exceed the static play, twice the compression of a contact under the force
-        F m2/(m1 + m2). F is the static force on the machine, m1 its mass, and m2 the loose mass.
+        The gap must exceed twice the compression of a contact under the force F m2/(m1 + m2). F is
+        `static_force` of the machine, m1 the machine's mass, and m2 the loose mass.
         """
         scales = machine.scales
         gaps = scales.range_to_si(bounds.CLEARANCE_RANGE, "gap")
@@ -245,12 +245,7 @@ class Machine:
         return Scales(length, time, self.mass, si=True)
 
     def _static_deflection(self):
-        """Return the static deflection (m) under the force, or under mass times base_acceleration.
-
-        With an unbalance return unbalance/mass. On a base with a given displacement return
-        base_displacement. Without excitation return the deflection at which the spring's linear and
-        cubic forces are equal, or 1 mm if one of these forces is absent.
-        """
+        """Return the static deflection (m) under a force, or a similar length if there is none."""
         stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
         if self.force:
             return static_deflection(self.force, stiffness, cubic)
@@ -266,7 +261,8 @@ class Machine:
     def resonant_displacement(self) -> float:
         """Estimated displacement (m) at resonance: static deflection times max(1, m w/c).
 
-        m is the mass, c is `viscous_damping`, and m w^2 the secant stiffness at static deflection.
+        m is the machine's mass, c is `viscous_damping`, and w the angular frequency at which m w^2
+        is the secant stiffness of the spring at the static deflection.
         """
         static = self._static_deflection()
         stiffness = self.linear_stiffness + abs(self.cubic_stiffness) * static**2
@@ -274,14 +270,14 @@ class Machine:
 
     @property
     def static_force(self) -> float:
-        """Force that holds the machine at its static deflection, N; 0 without excitation."""
+        """Force (N) that holds the machine at its static deflection. Without excitation it is 0."""
         if self.force is not None:
             return self.force
         x = self._static_deflection()
         return self.linear_stiffness * x + abs(self.cubic_stiffness) * x**3
 
     def oscillator(self) -> Oscillator:
-        """Return the machine as a dimensionless `Oscillator`, with the scales in `scales`."""
+        """Return the machine as a dimensionless `Oscillator`, which keeps the machine's scales."""
         scales = self.scales
         force, unbalance = self.forcing
         return Oscillator(
@@ -323,8 +319,8 @@ class Machine:
             Full play of the loose mass from wall to wall, m.
         clearances : sequence of 2 floats, str or pint.Quantity
             In place of `gap`, the distances (m) from the loose mass at rest to both walls. Motions
-            depend on the sum only, because no spring holds the loose mass between the walls. In a
-            state Z2 is 0 at mid-gap. At rest Z2 is plus or minus half the distances' difference.
+            depend on their sum only, because no spring holds the loose mass between the walls. Z2
+            is measured from the middle of the gap, also if both distances differ.
         mount : dict, optional
             Arguments of `mounting`, such as {"inclination": "90 deg"}.
         contact
@@ -359,9 +355,10 @@ def mounting(
     """Return a dictionary of `gravity` along the gap (m/s^2) and `friction` of a loose mass (N).
 
     `inclination` (radian, or text such as "90 deg") is the angle of the gap to the horizontal, by
-    default 0. `normal_force` (N) presses the loose mass on its floor; the default is the weight's
-    component normal to the gap. Give `gravity` or `inclination`. Give `friction`, or the other two,
-    `friction_coefficient` and `normal_force`. Raise ValueError for values that exclude each other.
+    default 0. `gravity` may be given instead. `normal_force` (N) presses the loose mass on its
+    floor; the default is the weight's component normal to the gap. The friction is this force times
+    `friction_coefficient`. `friction` may be given instead of both. Raise ValueError for values
+    that exclude each other.
     """
     mass = check_si("mass", mass, "mass", above=0)
     coefficient = check_si("friction_coefficient", friction_coefficient, "number", **FRICTIONS)

@@ -7,9 +7,9 @@ from impact_damper.model.exit_rules import NO_TENSION
 from impact_damper.model.parameters import NONLINEAR, Oscillator, check_damper, parameters_in
 from impact_damper.model.text import number
 
-# Names of the packed parameters, in order. FREQUENCY is W, STIFFNESS is omega_l^2. DASHPOT is the
-# coefficient of the walls' dashpot. FRICTION is per unit of loose mass. LAG is a time, DASHPOT /
-# CONTACT_STIFFNESS if the walls never pull, and 0 if the walls may pull.
+# Names of the packed parameters, in order. FREQUENCY is W. STIFFNESS is omega_l^2. DASHPOT is the
+# coefficient of the walls' dashpot. FRICTION is per unit of loose mass. LAG is the time DASHPOT /
+# CONTACT_STIFFNESS if the walls never pull. If the walls may pull, LAG is 0.
 FIELDS = [each.name for each in parameters_in(Oscillator)]
 NAMES = (
     "FREQUENCY",
@@ -65,7 +65,7 @@ def pack(oscillator, damper, frequency) -> np.ndarray:
 
 
 def cubic_spring(p) -> tuple:
-    """Return omega_l^2 and k3 of packed parameters. Other nonlinear terms raise ValueError."""
+    """Return omega_l^2 and k3. Raise ValueError if the spring has other nonlinear terms."""
     for name in NONLINEAR:
         value = p[NAMES.index(name.upper())]
         if value and name != "cubic":

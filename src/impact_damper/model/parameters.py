@@ -102,7 +102,7 @@ class Oscillator:
         return [name for name in NONLINEAR if getattr(self, name)]
 
     def told(self, *names) -> str:
-        """Return parameters as text: "cubic = 1", or "cubic_stiffness = 2 N/m^3" for a machine."""
+        """Return named parameters as text, such as "cubic = 1"; in SI units for a machine."""
         found = []
         for name in names:
             facts = self.__dataclass_fields__[name].metadata
@@ -197,7 +197,7 @@ class Damper:
 
     @property
     def contact_frequency(self) -> float:
-        """Natural frequency wn = sqrt(r1 (1 + 1/rm)) of a contact. It lasts pi/wn if elastic."""
+        """Natural frequency wn = sqrt(r1 (1 + 1/rm)) of a contact. Elastic contacts last pi/wn."""
         return math.sqrt(self.contact_stiffness * (1 + 1 / self.mass_ratio))
 
     @property
@@ -207,9 +207,9 @@ class Damper:
 
 
 def beyond_closed_forms(oscillator, damper) -> list:
-    """Return which of the damper's gravity and friction and the oscillator's base are not 0.
+    """Return which of three parameters are not 0: "gravity" and "friction", and "base".
 
-    Each is returned as a pair: the damper or the oscillator, and the name of the parameter.
+    Each is returned as a pair of its owner, `damper` or `oscillator`, and its name.
     """
     terms = (damper, "gravity"), (damper, "friction"), (oscillator, "base")
     return [(part, name) for part, name in terms if getattr(part, name)]
@@ -229,7 +229,7 @@ def parameters_in(part) -> list:
     return [each for each in fields(part) if each.type in (int, float)]
 
 
-# Nonlinear terms of the spring: name of the coefficient ("cubic"), and exponent of Z1 (3).
+# Each nonlinear term of the spring: name of its coefficient ("cubic"), and its exponent of Z1 (3).
 NONLINEAR = {
     each.name: each.metadata["power"]
     for each in parameters_in(Oscillator)
@@ -245,7 +245,7 @@ SYMBOLS = {
 
 
 def describe(*parts) -> dict:
-    """Return the parameters of several objects in one dictionary. A part may be None."""
+    """Return the parameters of several dataclasses in one dictionary. A part may be None."""
     return {
         each.name: getattr(part, each.name)
         for part in parts

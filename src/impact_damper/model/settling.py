@@ -16,17 +16,19 @@ class Settling:
     tolerance : float
         Largest local error in a step of the integrator, dimensionless.
     patience : int
-        Forcing cycles after which a run is stopped if it is chaotic with a Lyapunov exponent above
-        0.05 (per unit of T), or if the loose mass touched no wall in these cycles and hardly moves.
+        Number of forcing cycles after which a run is stopped in two cases: its motion is chaotic
+        with a Lyapunov exponent above 0.05 (per unit of T), or its loose mass has touched no wall
+        during these cycles and hardly moves.
     limit : int
-        Number of forcing cycles after which every remaining run is judged. The outcome is
-        chaotic if chaos is certain, and drifting if the primary mass is on an orbit and the loose
-        mass has touched no wall for `patience` cycles. An undecided motion runs on (`further`).
+        Number of forcing cycles after which every run that is left is judged. If chaos is certain,
+        the outcome is chaotic. The outcome is drifting if two conditions hold: the primary mass is
+        on an orbit, and the loose mass has touched no wall for `patience` cycles. Other motions are
+        undecided.
     watched : int
-        Number of forcing cycles, after the run, over which an unsettled motion is measured.
+        Number of forcing cycles after a run, over which a motion that has not settled is measured.
     further : int
-        Largest number of forcing cycles for which an undecided motion is run on. It may then prove
-        to be quasi-periodic, chaotic, or periodic with a long period.
+        Largest number of forcing cycles for which an undecided run is continued. The motion may
+        then prove to be quasi-periodic, chaotic, or periodic with a long period.
 
     Raises
     ------

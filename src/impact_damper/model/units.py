@@ -14,7 +14,7 @@ from impact_damper.model.text import number, with_unit
 class Quantity(NamedTuple):
     """A physical quantity: its SI unit, and the exponents of length, time and mass in this unit.
 
-    If `shown` is not empty, datasets use the unit `shown`: the SI value is multiplied by `factor`.
+    If `shown` is not empty, it is the unit in datasets. Datasets have the SI value times `factor`.
     """
 
     unit: str
@@ -30,7 +30,7 @@ class Quantity(NamedTuple):
         return self.shown or self.unit or "1"
 
 
-# Physical quantities by name. For a parameter or a variable of a dataset `kind` is such a name.
+# Physical quantities by name. Arguments named `kind` or `quantity` are keys of this dictionary.
 QUANTITIES = {
     "number": Quantity(""),
     "angle": Quantity("radian"),
@@ -133,7 +133,7 @@ def check_si(name, value, quantity, **bounds) -> float:
 
 
 def absolute_value(value, quantity) -> float | None:
-    """Return a tolerance such as "0.2 mm" in the SI unit, or None for a tolerance such as "5 %"."""
+    """Return a tolerance such as "0.2 mm" in SI units, or None for a relative one ("5 %")."""
     if quantity is None or not (isinstance(value, str) or hasattr(value, "units")):
         return None
     try:
@@ -143,7 +143,7 @@ def absolute_value(value, quantity) -> float | None:
 
 
 def physical(quantity, meaning="", **others):
-    """Return a dataclass field for a quantity. `others` has SI bounds, and may have a `default`."""
+    """Return a dataclass field for a quantity. `others`: bounds in SI units, perhaps `default`."""
     default = {key: others.pop(key) for key in ("default",) if key in others}
     unit = QUANTITIES[quantity].unit
     facts = {"quantity": quantity, "bounds": others, "meaning": meaning}
@@ -154,7 +154,7 @@ optional = partial(physical, default=None)
 
 
 def convert(part) -> None:
-    """Convert fields of a dataclass (see `physical`) to SI units. Optional fields may stay None."""
+    """Convert the fields of a dataclass that `physical` made to SI units. None may stay None."""
     for each in fields(part):
         value = getattr(part, each.name)
         if "quantity" in each.metadata and not (value is None and each.default is None):
@@ -174,7 +174,7 @@ class Scales(NamedTuple):
     si: bool = False
 
     def unit(self, kind) -> float:
-        """Return the SI value of a quantity whose dimensionless value is 1. `kind` names it.
+        """Return the SI value of a quantity of this kind whose dimensionless value is 1.
 
         For a frequency this is w0/(2 pi) in Hz, for a gap 2 x0 in m. If `si` is false, return 1.
         """

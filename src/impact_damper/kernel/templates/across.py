@@ -16,16 +16,17 @@ def is_outside(a, i):
 
 
 def load_across(a):
-    """Compute ACROSS: Z2'' - Z1'' without the wall's force, at the beginning of a step.
+    """Compute ACROSS, which is Z2'' - Z1'' without the wall's force at the beginning of a step.
 
-    MOST bounds its modulus in the step. SWAYS counts lanes with gravity, friction or moving base.
+    MOST becomes an upper bound on |Z2'' - Z1''| during the step, without the wall's force. SWAYS
+    becomes the number of lanes with gravity, friction or a moving base.
     """
     acting = 0
     rough = 0
     for i in range(LANES):
         acting += 1 if abs(a[GRAVITY + i]) + a[BASE + i] + a[FRICTION + i] > 0.0 else 0
         rough += 1 if a[FRICTION + i] > 0.0 else 0
-    # If `acting` is 0, and was 0 in the last step (SWAYS), these rows are 0 already.
+    # If SWAYS was 0 in the last step and stays 0, the rows below are 0 already.
     if acting > 0 or a[SWAYS] > 0.0:
         for i in range(LANES):
             a[DRAW + i] = a[GRAVITY + i]
@@ -45,7 +46,7 @@ def load_across(a):
 
 
 def find_sway(a):
-    """Compute SWAY and its first three derivatives at T. If SWAYS is 0, they stay 0.
+    """Compute SWAY and its first three derivatives at the time T of the step.
 
     SWAY is the part of Z2 - Z1 that gravity, friction and a moving base cause in the step.
     """
@@ -75,14 +76,14 @@ def find_sway(a):
 
 
 def flight_values(a):
-    """Compute Z1, SWAY and their derivatives at T, which `contact.loose_mass` needs."""
+    """Compute Z1, SWAY and their derivatives at the time T of a flight, for `loose_mass`."""
     flight_slope(a)
     flight_curve(a)
     find_sway(a)
 
 
 def penetration_values(a):
-    """Compute Z1, SWAY, the depth in the wall, and their derivatives at T."""
+    """Compute Z1, SWAY, the depth in the wall, and their derivatives at the time T of a contact."""
     find_sway(a)
     contact_values(a)
 
@@ -90,10 +91,14 @@ def penetration_values(a):
 def find_return(a):
     """Find the first contact in [0, T] in lanes whose flight begins beyond a wall, at |Z2| > d0.
 
-    Let q be |Z2| - d0 at this wall. If f = q + LAG q' rises to zero while q > 0, the wall pushes
-    again, and MODE becomes MET_DEEP. If a contact begins at |Z2| = d0, at either wall, MODE becomes
-    MET. WALL, T, END_Z1 and END_Z1_SLOPE are set as in `find_contact`. No search is needed if f
-    falls (-q' exceeds LAG times a bound on |q''|) and the opposite wall is out of reach.
+    Let q be |Z2| - d0 at this wall, and f = q + LAG q'. Two kinds of contact are possible:
+
+    - f rises to zero while q > 0. The loose mass meets this wall before the wall is back at d0, and
+      MODE becomes MET_DEEP.
+    - |Z2| reaches d0 from inside, at this or at the opposite wall. MODE becomes MET.
+
+    WALL, T, END_Z1 and END_Z1_SLOPE are set as in `find_contact`. No search is needed if f falls
+    during the whole step and the opposite wall is out of reach.
     """
     flight_bound(a)
     flight_jerk(a)
@@ -127,7 +132,7 @@ def find_return(a):
 
 
 def step_outside(a, i, t):
-    """Continue the search of `find_return` at time t. Return the next time and the next mode."""
+    """Continue the search of `find_return` at time t in lane i. Return the next time and mode."""
     wall, lag, bound = a[WALL + i], a[LAG + i], a[BOUND + i]
     clearance = a[CLEARANCE + i]
     z, w = loose_mass(a, i, t)
@@ -139,7 +144,7 @@ def step_outside(a, i, t):
     fine = abs(a[Y0 + i]) + clearance + lag * (abs(a[Y1 + i]) + abs(slope))
     fine *= ROUNDING
     bent = bound + lag * a[JERK_BOUND + i]
-    # A contact with this wall cannot begin while q or f is negative.
+    # A contact with the wall WALL cannot begin while q or f is negative.
     deep = safe_advance(-q, slope, bound) if q <= fine else 0.0
     pressed = safe_advance(-f, rise, bent) if f <= fine else 0.0
     across = safe_advance(2.0 * clearance + q, -slope, bound)

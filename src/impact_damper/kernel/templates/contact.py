@@ -12,7 +12,7 @@ def loose_mass(a, i, t):
 
 
 def first_guess(a, i):
-    """Estimate the time of a contact from the distance to the wall, speed and acceleration."""
+    """Estimate the time of a contact from distance, speed and acceleration at the beginning."""
     distance = min(a[CLEARANCE + i], FAR) - a[WALL + i] * a[Y2 + i]
     speed = abs(a[Y3 + i])
     bend = a[WALL + i] * (a[G + i] + a[ACROSS + i])
@@ -20,7 +20,7 @@ def first_guess(a, i):
 
 
 def distance_ahead(a, i, t):
-    """Return three numbers at time t: the distance f to WALL, the Newton step -f/f', and f''/f'.
+    """Return the distance f of the loose mass to WALL at time t, and -f/f' and f''/f'.
 
     Before the call the rows of Z1, SWAY and their first two derivatives must hold values at time t.
     """
@@ -34,9 +34,8 @@ def distance_ahead(a, i, t):
 def expect_contact(a):
     """In lanes in which a contact is expected, move T from LENGTH to the contact's expected time.
 
-    A contact is expected if the first three terms of the series of Z2 give |Z2| > d0 at LENGTH.
-    The expected time follows from the first half of the terms of Z1. So the processor need not wait
-    for the last coefficients.
+    A contact is expected if the first three terms of the Taylor series of Z2 give |Z2| > d0 at the
+    time LENGTH. The expected time follows from the first half of the terms of the series of Z1.
     """
     expected = 0
     for i in range(LANES):
@@ -52,7 +51,7 @@ def expect_contact(a):
 
 
 def guess_contact(a):
-    """Set T to the estimated time of the contact in lanes in mode BRACKET, elsewhere to LENGTH."""
+    """Set T to the estimated time of a contact in lanes in mode BRACKET. Set other T to LENGTH."""
     for i in range(LANES):
         a[T + i] = min(first_guess(a, i), a[LENGTH + i])
     flight_early(a)
@@ -65,25 +64,28 @@ def guess_contact(a):
 
 
 def find_contact(a):
-    """Move T to the first time in [0, T] at which |Z2| reaches the clearance from inside.
+    """Move T to the first time in [0, T] at which |Z2| reaches the clearance d0 from inside.
 
-    If there is such a time, MODE becomes MET, and WALL becomes the wall in contact. If there is
-    certainly no such time, MODE becomes MISSED, and T keeps its value. MODE also becomes MISSED if
-    APART > 0: the loose mass sticks, or `across.find_return` searches afterwards. Before and after
-    the call END_Z1 and END_Z1_SLOPE hold Z1 and Z1' at T. If T < LENGTH before the call, a contact
-    is expected at T (`expect_contact`) or slightly later.
+    - If there is such a time, MODE becomes MET, and WALL becomes the wall in contact.
+    - If there is certainly no such time, MODE becomes MISSED, and T keeps its value.
+    - If APART > 0, MODE becomes MISSED without a search. The loose mass sticks, or
+      `across.find_return` searches later.
 
-    Bounds decide most flights without a search. `change` is a bound on the change of Z2' in the
-    flight. The wall ahead is the wall that the loose mass approaches at the beginning.
+    END_Z1 and END_Z1_SLOPE hold Z1 and Z1' at T, before the call and after it. If T < LENGTH before
+    the call, `expect_contact` expects a contact at T or slightly later.
 
-    - `clear`: Z2 deviates from a straight line between both ends of the flight by at most `sag`. If
-      both ends are more than `sag` away from the wall ahead, the loose mass does not reach it.
-    - `left`: the straight line gives a lower bound on the distance to the other wall. The first Z2'
-      and `change` give a second lower bound. If the mean of both bounds is positive, the loose mass
-      does not reach the other wall.
-    - `certain`: the first Z2' and `change` give a lower bound on the speed to the wall ahead. The
-      last Z2' and `change` give a second lower bound. If the mean of both bounds is positive, the
-      loose mass can reach only the wall ahead, and only once.
+    Bounds decide most flights without a search. `change` is an upper bound on the change of Z2' in
+    the flight. The wall ahead is the wall that the loose mass approaches at the beginning.
+
+    - `clear` is true if the loose mass cannot reach the wall ahead. Z2 as a function of time
+      deviates by at most `sag` from the straight line that joins its values at 0 and at T. Both
+      values are more than `sag` away from the wall ahead.
+    - `left` is true if the loose mass cannot reach the wall behind. The mean of two lower bounds on
+      the distance to this wall is positive. One bound follows from the straight line, the other
+      from `change` and Z2' at the beginning.
+    - `certain` is true if the loose mass moves towards the wall ahead all the time. The mean of two
+      lower bounds on its speed is positive. One bound follows from `change` and Z2' at the
+      beginning, the other from `change` and Z2' at the end.
     """
     undecided = 0
     expected = 0
@@ -117,7 +119,7 @@ def find_contact(a):
 
 
 def meet_expected(a):
-    """Improve the times of expected contacts once. Return how many lanes are still undecided."""
+    """Find expected contacts with one step of Chebyshev's method. Count the undecided lanes."""
     flight_curve(a)
     find_sway(a)
     undecided = 0
@@ -139,10 +141,10 @@ def meet_expected(a):
 def exclude_contacts(a):
     """Set MODE to MISSED in lanes whose loose mass certainly meets no wall in [0, T].
 
-    Return how many lanes are still undecided. A cubic polynomial with the values and slopes of Z2
-    at 0 and T deviates from Z2 by at most `most` = T^4 max|Z2''''| / 384. In [0, T/2] and [T/2, T]
-    the cubic lies between its four Bernstein coefficients. The moduli of the coefficients bound
-    |Z2| if `most` is added to the coefficient at T/2, and 4/3 `most` to the coefficients beside it.
+    Return how many lanes are still undecided. Let the cubic polynomial C have the values and slopes
+    of Z2 at the times 0 and T. Then |Z2 - C| is at most `most` = T^4 max|Z2''''| / 384. On each
+    half of [0, T] the moduli of four Bernstein coefficients bound |C|. They bound |Z2| if `most` is
+    added to the modulus at T/2, and 4/3 `most` to the modulus of the coefficient on each side.
     """
     flight_snap(a)
     undecided = 0
@@ -196,7 +198,7 @@ def search_contact(a):
                 upper = safe_advance(clearance - z, w, bound)
                 lower = safe_advance(clearance + z, -w, bound)
                 wall = 1.0 if upper < lower else -1.0
-                # When the loose mass leaves a wall, the distance is at first a rounding error.
+                # When the loose mass leaves a wall, its distance is at first a rounding error.
                 shortest = math.sqrt(8.0 * fine / (bound + TINY))
                 receding = max(shortest, ROUNDING * t) if wall * w <= 0.0 else 0.0
                 ahead = max(min(upper, lower), receding)

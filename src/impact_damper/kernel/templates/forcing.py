@@ -3,17 +3,13 @@
 # QUARTER + QUARTER_REST is pi/2. QUARTER has few binary digits, so that its multiples are exact.
 QUARTER = 1.5707963267341256
 QUARTER_REST = 6.077100506506192e-11
-# If the phase has changed by less than NEAR (rad), `forcing` only corrects COSINE and SINE, by the
-# addition theorem. The cosine and sine of the change are series up to third order.
+# If the phase W t changes by less than NEAR (rad), `forcing` corrects COSINE and SINE by the
+# addition theorem, with Taylor polynomials of third degree. Otherwise it computes both anew.
 NEAR = 1e-4
 
 
 def find_circle(a):
-    """Compute CIRCLE_COSINE = cos(ANGLE) and CIRCLE_SINE = sin(ANGLE), with ANGLE in rad.
-
-    The function first subtracts quarter turns (pi/2) from ANGLE, because the series converge fast
-    only for angles up to pi/4.
-    """
+    """Compute CIRCLE_COSINE = cos(ANGLE) and CIRCLE_SINE = sin(ANGLE), with ANGLE in rad."""
     for i in range(LANES):
         angle = a[ANGLE + i]
         turns = np.floor(angle * (2.0 / math.pi) + 0.5)
@@ -47,7 +43,7 @@ def find_forcing(a):
 def forcing(a):
     """Compute COSINE = A cos(W t) and SINE = A sin(W t) at the time t = TIME. A is F + U W^2.
 
-    With one lane, the values at the time KNOWN are corrected if KNOWN is close to TIME.
+    With one lane, if the time KNOWN is close to TIME, correct the values of both at KNOWN.
     """
     t = a[FREQUENCY] * (a[TIME] - a[KNOWN])
     if LANES > 1 or not abs(t) < NEAR:
@@ -62,10 +58,7 @@ def forcing(a):
 
 
 def look_ahead(a):
-    """With one lane, compute COSINE and SINE already at TIME + T, the expected end of the step.
-
-    The processor has time for this while it waits for other results of the step.
-    """
+    """With one lane, compute COSINE and SINE for the expected end of the step, TIME + T."""
     if LANES == 1:
         a[KNOWN] = a[TIME] + a[T]
         find_forcing(a)

@@ -1,20 +1,17 @@
 """Template (see `step`): Coulomb friction of the loose mass on its floor.
 
 SLIDE is the sign of Z2'. While the loose mass slides, friction changes Z1'' by PUSH and Z2'' - Z1''
-by -FRICTION * SLIDE. While the loose mass sticks (STUCK is 1), both masses move together. Let g be
-Z1'' without the damper and without friction. Then
+by -FRICTION * SLIDE. While the loose mass sticks (STUCK is 1), both masses move together:
 
     (1 + rm) Z1'' = g - rm (GRAVITY - BASE A cos(W T))
 
-The loose mass sticks as long as the friction needed to hold it is below FRICTION.
+g is Z1'' without the damper, and A the amplitude of the forcing. The loose mass sticks as long as
+the friction needed to hold it is below FRICTION.
 """
 
 
 def load_friction(a):
-    """Decide at the beginning of a step whether the loose mass sticks, or which way it slides.
-
-    The loose mass can stick only if Z2' is exactly 0. `end_turn` sets Z2' to 0 if the mass stops.
-    """
+    """Decide at the beginning of a step whether the loose mass sticks, or which way it slides."""
     a[STICKS] = 0.0
     for i in range(LANES):
         friction = a[FRICTION + i]
@@ -71,7 +68,7 @@ def let_go(a):
 
 
 def load_rates(a):
-    """With one lane, compute the series H and D again after damping and dashpot have changed."""
+    """With one lane, compute the series H and D again after DAMPING and DASHPOT have changed."""
     if LANES == 1:
         for k in range(max(FLIGHT_ORDER, CONTACT_ORDER) - 1):
             a[H + k] = a[DAMPING] * (1.0 / max(k, 1))
@@ -101,7 +98,8 @@ def find_turn(a, touching):
     """Find the first turn or slip before T. `touching` says whether the step is in contact.
 
     At a turn a sliding loose mass stops (Z2' = 0). At a slip a sticking loose mass begins to slide.
-    MODE becomes TURNED, T becomes the time of the event, and rows END_Z1, ... receive the state.
+    If a turn or slip is found, MODE becomes TURNED, T becomes the time of this event, and the rows
+    END_Z1, END_Z1_SLOPE, END_DEPTH and END_DEPTH_SLOPE receive the values at this time.
     """
     if touching:
         contact_jerk(a)
@@ -130,7 +128,7 @@ def find_turn(a, touching):
 
 
 def step_to_turn(a, i, touching):
-    """Continue the search of `find_turn` in lane i: move T to the next time, or end the search."""
+    """Do a step of the search of `find_turn` in lane i: move T to the next time, or end it."""
     t, bound = a[T + i], a[BOUND + i]
     stuck = a[STUCK + i] > 0.0
     if touching:
@@ -177,7 +175,7 @@ def wall_force_held(a, i):
 
 
 def end_turn(a):
-    """Set Z2' to 0 if the loose mass stops or sticks, and to almost 0 if it begins to slide."""
+    """Set Z2' to 0 if the loose mass has stopped or sticks, and to +-TINY if it begins to slide."""
     for i in range(LANES):
         slipped = a[STUCK + i] > 0.0 and a[MODE + i] == TURNED
         held = a[STUCK + i] > 0.0 and not slipped
@@ -188,18 +186,19 @@ def end_turn(a):
 
 
 def keep_tangents(a, d):
-    """Call `hold`, which changes parameters, and store the Z2 of each tangent in KEPT."""
+    """Call `hold`, which changes parameters, and store each tangent's Z2 in the row KEPT."""
     hold(a)
     for i in range(TANGENTS):
         d[KEPT + i] = d[2 * TANGENTS + i]
 
 
 def friction_jump(a, d):
-    """Let tangents jump when a sliding loose mass stops (saltation matrix). Undo `keep_tangents`.
+    """Let tangents jump when a sliding loose mass stops (saltation matrix), and call `let_go`.
 
-    Then the friction per unit of loose mass jumps by J. Let b be Z2'' before the jump, and w be the
-    tangent's Z2'. The tangent's Z1' jumps by -rm w J/b, and w jumps by -(1 + rm) w J/b. If the
-    loose mass has stuck during the step, w becomes 0, and the tangent's Z2 becomes KEPT.
+    When the loose mass stops, the friction per unit of loose mass jumps by J. Let b be Z2'' before
+    the jump, and w the tangent's Z2'. The tangent's Z1' jumps by -rm w J/b, and w jumps by
+    -(1 + rm) w J/b. If the loose mass has stuck during the step, w becomes 0, and the tangent's Z2
+    keeps its value from the beginning of the step (KEPT).
     """
     for i in range(TANGENTS):
         j = i % LANES

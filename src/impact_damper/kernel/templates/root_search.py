@@ -3,9 +3,9 @@
 In flight f is the distance of the loose mass to a wall. A contact begins at the root of f. In
 contact f is q + LAG q' (`separation`). The contact ends at the root of f. Values of the row MODE:
 
-    MARCH     several roots are possible. A bound on |f''| gives a time within which f cannot reach
-              zero. The search advances by such times, so that it never passes the first root.
-    BRACKET   at most one root is possible. Chebyshev's method, secured by bisection, finds it.
+    MARCH     several roots are possible. The search advances by times within which f, because of a
+              bound on |f''|, cannot reach zero. So the search never passes the first root.
+    BRACKET   at most one root is possible. Chebyshev's method finds it, secured by bisection.
     ENDING    the search has reached the end of the step without a root.
     MET       the root has been found.
     MISSED    certainly no root is in the step, or `across.find_return` searches for it later.
@@ -26,8 +26,8 @@ FAR = 1e200
 def safe_advance(f, closing, bound):
     """Return a time within which an event function f(t) cannot fall to zero.
 
-    `f` is the value now, `closing` is -f' now, and |f''| is at most `bound` at all times. The
-    returned time is the first root t of f - closing t - bound t^2/2.
+    `f` is the function's value now, `closing` is -f' now, and |f''| is at most `bound` at any time.
+    The returned time is the first root t of the polynomial f - closing t - bound t^2/2.
     """
     f = max(f, 0.0)
     root = math.sqrt(closing * closing + 2.0 * bound * f)
@@ -39,9 +39,10 @@ def safe_advance(f, closing, bound):
 def march_step(t, f, closing, ahead, length, fine):
     """Return two numbers: the next time and the next mode of a search in mode MARCH.
 
-    The event function f has no root between t and t + `ahead`. `closing` is true if f decreases.
-    If f decreases, t is the root as soon as f is at most `fine`, its rounding error, or `ahead` is
-    too short to change t.
+    `f` is the value of the event function at the time t, and `fine` its rounding error. `closing`
+    is true if the function decreases at t. It has no root between t and t + `ahead`. The time t is
+    the root if the function decreases, and `f` <= `fine` or t + `ahead` = t. The search ends at the
+    time `length`.
     """
     met = closing and (f <= fine or t + ahead == t)
     ends = not t + ahead < length
@@ -50,12 +51,12 @@ def march_step(t, f, closing, ahead, length, fine):
 
 
 def chebyshev(first, bend):
-    """Return a step of Chebyshev's method of third order. `first` is -f/f', `bend` is f''/f'."""
+    """Return a step of Chebyshev's third-order method for f. `first` is -f/f', `bend` is f''/f'."""
     return first * (1.0 - 0.5 * bend * first)
 
 
 def is_last_move(a, i, move, rate):
-    """Return whether the estimated error after a move is so small that the search can end."""
+    """Return whether a search can end after a `move` in time. Its error is about (rate move)^3."""
     turn = max(rate, 2.0 / a[LENGTH + i]) * move
     return abs(turn * turn * turn) <= max(LAST_MOVE * a[TOLERANCE + i], ROUNDING)
 
@@ -63,13 +64,14 @@ def is_last_move(a, i, move, rate):
 def bracketed_step(a, i, t, f, first, bend, rate, fine):
     """Return two numbers: the next move and the next mode of a search in mode BRACKET.
 
-    One root lies between LOW, where f > 0, and HIGH, where f <= 0. If no time with f <= 0 is known,
-    HIGH is FAR, and at most one root lies between LOW and the end of the step. If a move would
-    leave the interval from LOW to HIGH, bisection replaces the move.
+    `f` is the value of the event function at the time t, and `fine` its rounding error. A move is a
+    change of t. One root lies between the times LOW, where f > 0, and HIGH, where f <= 0. While no
+    time with f <= 0 has been found, HIGH is FAR, and at most one root lies after LOW in the step.
+    A move that would leave the interval from LOW to HIGH is replaced by bisection.
 
     `first` is an estimate of the move to the root, such as a Newton step. `bend` is the part of f''
     that `first` neglects, divided by f'. `rate` is the natural frequency of a contact, and 0 in
-    flight. The rounding error of f is `fine`.
+    flight.
     """
     low = a[LOW + i] = t if f > 0.0 else a[LOW + i]
     high = a[HIGH + i] = a[HIGH + i] if f > 0.0 else t
@@ -90,9 +92,10 @@ def bracketed_step(a, i, t, f, first, bend, rate, fine):
 
 
 def store_end(a, i, row, end, move, going):
-    """Store a function's value and slope, after the time `move`, in the two rows from `end` on.
+    """Extrapolate a function by the time `move`, and store its value and slope there.
 
-    The four rows from `row` on hold its value and three derivatives. Do nothing if not `going`.
+    The four rows from `row` on hold the function and its first three derivatives before the move.
+    The two rows from `end` on receive the value and the slope, if `going` is true.
     """
     value, slope = a[row + i], a[row + LANES + i]
     curve, jerk = a[row + 2 * LANES + i], a[row + 3 * LANES + i]

@@ -7,9 +7,9 @@ LAG = 0 (the paper's rule) the wall may pull. With LAG = DASHPOT / CONTACT_STIFF
 # Longest step, in natural periods of the contact: LONGEST_DEEPENING if the depth q grows at the
 # beginning of the step, LONGEST_RETURNING if q falls.
 LONGEST_DEEPENING, LONGEST_RETURNING = 0.55, 0.4
-# If the phase in `find_separation` advances at a rate within 25 % of the natural frequency, a step
-# contains at most one separation: the phase advances by less than 0.55 * 1.25 < 3/4 revolution if q
-# grows at the beginning, otherwise by less than 0.4 * 1.25 = 1/2 revolution.
+# `find_separation` defines a phase. If this phase advances at a rate within 25 % of the natural
+# frequency, a step has at most one separation. The phase then advances by less than 0.55 * 1.25 <
+# 3/4 revolution if the depth q grows at the beginning, else by less than 0.4 * 1.25 = 1/2.
 PHASE_MARGIN = 0.25
 
 
@@ -22,17 +22,14 @@ def fast_exp2(y):
 
 
 def time_to_zero(f, slope, natural):
-    """Return the approximate time after which a harmonic oscillation is 0. Its value now is f."""
+    """Return about how long a harmonic oscillation with the value f and this `slope` takes to 0."""
     u = natural * f * (natural * f)
     v = slope * slope
     return -f * (15.0 * v + 4.0 * u) / (slope * (15.0 * v + 9.0 * u))
 
 
 def predict_separation(a):
-    """Compute the LENGTH of a step in contact, and the predicted time T of separation.
-
-    T is at most LENGTH. The prediction does not wait for the coefficients of the series.
-    """
+    """Compute the LENGTH of a step in contact, and predict the time T <= LENGTH of separation."""
     for i in range(LANES):
         wall = a[SIDE + i]
         q = wall * a[Y2 + i] - a[CLEARANCE + i]
@@ -45,8 +42,8 @@ def predict_separation(a):
         loss = a[DASHPOT + i] * mobility
         longest = (LONGEST_DEEPENING if w >= 0.0 else LONGEST_RETURNING) * 2.0 * math.pi / natural
         length = min(a[LONGEST + i], longest)
-        # If q = 0, the contact has just begun. It lasts half a damped natural period, corrected for
-        # g, which is Z1'' without the damper. If q is not 0, g is neglected.
+        # If q = 0, the contact has just begun. It lasts about half a damped natural period, plus a
+        # correction for g, which is Z1'' without the damper. If q is not 0, g is neglected.
         g = a[COSINE + i] - spring(a, x, i, LANES) - h * v
         slope = spring_slope(a, x, i, LANES)
         drift = -a[FREQUENCY + i] * a[SINE + i] - slope * v - h * g
@@ -63,14 +60,14 @@ def predict_separation(a):
 
 
 def find_separation(a):
-    """Move T to the first time in [0, LENGTH] at which q + LAG q' falls to zero.
+    """Move T to the time of separation: the first in [0, LENGTH] at which q + LAG q' falls to zero.
 
     Before the call T is a guess. If there is a separation, MODE becomes MET. If there is certainly
     none, T becomes LENGTH and MODE becomes MISSED. END_Z1 and END_Z1_SLOPE receive Z1 and Z1' at T.
     END_DEPTH and END_DEPTH_SLOPE receive the depth Z2 - SIDE d0 and the slope of the depth at T.
 
-    Let q be the depth times the sign of the wall, n the natural frequency of the contact, and
-    `loss` = DASHPOT (1 + 1/rm). Then |q'' + n^2 q + loss q'| is at most `rest`. The phase is the
+    Here q is the depth times SIDE, n the natural frequency of the contact, and `loss` is
+    DASHPOT (1 + 1/rm). Then |q'' + n^2 q + loss q'| is at most `rest`. The phase is the
     angle of the point (n q, q') around the origin, and R is its distance from the origin. R grows
     at most at the rate rest, and falls at most at the rate rest + loss R. The phase advances at the
     rate n, to within rest/R + loss/2. q + LAG q' is zero twice in a revolution of the phase. If
@@ -93,7 +90,6 @@ def find_separation(a):
         a[FINE + i] = ROUNDING * (abs(q) + abs(w) * (length + a[LAG + i]))
         a[LOW + i] = 0.0
         a[HIGH + i] = FAR
-        # A loose mass that sticks does not leave the wall. No search is needed.
         stuck = a[STUCK + i] > 0.0
         a[MODE + i] = ENDING if stuck else (BRACKET if certain else MARCH)
         a[T + i] = length if stuck else (a[T + i] if certain else 0.0)
@@ -131,7 +127,7 @@ def find_separation(a):
 
 
 def bound_lagging(a):
-    """Change BOUND from a bound on |q''| into a bound on the second derivative of q + LAG q'."""
+    """Turn BOUND, an upper bound on |q''|, into an upper bound on |q'' + LAG q'''|."""
     lagging = 0
     for i in range(LANES):
         lagging += 1 if a[LAG + i] > 0.0 else 0

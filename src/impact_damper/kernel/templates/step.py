@@ -12,30 +12,32 @@ index in `a` at which a row begins: a[Y0 + i] belongs to lane i. `instances` des
 
 # The 64 bits of the float 1.0, read as an integer.
 ONE = 1023 << 52
-# The last terms of series should be below SAFETY * tolerance * max(1, |Z1|, |Z1'|, ...).
-# Contacts amplify errors. With 0.05 the errors of settled motions are below 10 times the tolerance.
+# The last terms of the series of Z1' and Z2' in a step should be below SAFETY * tolerance * max(1,
+# |Z1|, |Z1'|, ...). With 0.05 the errors of settled motions are below 10 times the tolerance.
 SAFETY = 0.05
-# A flight is shortened if the last terms of its series exceed EXCESS times `largest_tail`. With
-# EXCESS = 1 many flights would be shortened, because `predict_length` is not exact.
+# `predict_length` predicts the length of a flight, which is not exact. The flight is shortened only
+# if the last terms of its series exceed EXCESS times the value wanted (`largest_tail`).
 EXCESS = 4.0
 # A step in flight that begins at |Z2| > d0, while the wall is still coming back to d0, lasts
 # at most OUTSIDE times LAG. In the time LAG the wall's displacement falls to 1/e of its value.
 OUTSIDE = 2.0
-# A step too short to change TIME ends in contact if a wall is nearer than NEAREST times d0.
+# If the loose mass is nearer to a wall than NEAREST times d0 and approaches it, and if the step is
+# so short that TIME + T equals TIME, the step ends in contact with this wall.
 NEAREST = 1e-9
 
 
 def largest_tail(a, i):
-    """Return how large the last terms in the series of a velocity may be."""
+    """Return how large the last terms in the Taylor series of a velocity in lane i may be."""
     return SAFETY * a[TOLERANCE + i] * a[SCALE + i]
 
 
 def limit_length(a, series, order, excess):
     """Shorten LENGTH so that the last two terms of a velocity's series are below `largest_tail`.
 
-    Only lanes whose TAIL exceeds `excess` times `largest_tail` are changed. The velocity's term
-    k c[k] t^(k-1) reaches `largest_tail` at t = (`largest_tail` / |k c[k]|)^(1/(k-1)). This t is
-    computed with `branches.bits`, an approximate logarithm, and has an error of a few per cent.
+    Only lanes whose TAIL exceeds `excess` times `largest_tail` are changed. The coefficients c[k]
+    of the displacement stand in the rows from `series` on, and the highest k is `order`. The term
+    k c[k] t^(k-1) of the velocity has the modulus `largest_tail` at a time t. An approximate
+    logarithm (`branches.bits`) gives this t with an error of a few per cent.
     """
     for i in range(LANES):
         most = bits(largest_tail(a, i))
@@ -50,9 +52,10 @@ def limit_length(a, series, order, excess):
 def predict_length(a):
     """Predict the LENGTH of a flight, at most LONGEST, from three coefficients of middle order.
 
-    It is assumed that the coefficients k x[k] of Z1' follow the law SCALE / r^(k-1), where SCALE is
-    the largest modulus among 1, Z1 and Z1'. The orders EARLY, EARLY + 1 and EARLY + 2 each give an
-    r. With the smallest r, LENGTH is the time at which the last term reaches `largest_tail`.
+    Let x[k] be the Taylor coefficients of Z1. It is assumed that |k x[k]| = SCALE / r^(k-1). SCALE
+    is the largest of 1, |Z1| and |Z1'|. Each of the orders k = EARLY, EARLY + 1 and EARLY + 2 gives
+    a value of r. With the smallest r, LENGTH is the time at which the last term of Z1' reaches
+    `largest_tail`.
     """
     last = FLIGHT_ORDER - 1
     for i in range(LANES):
@@ -71,7 +74,7 @@ def predict_length(a):
 
 
 def end_flight(a):
-    """Shorten steps whose last terms (TAIL) are too large. Store Z1 and Z1' at the end of steps."""
+    """Shorten flights whose last terms (TAIL) are too large. Store Z1 and Z1' at their ends."""
     flight_slope(a)
     beyond = 0
     for i in range(LANES):
@@ -119,7 +122,7 @@ def flight_step(a):
     find_sway(a)
     for i in range(LANES):
         t = a[T + i]
-        # `stuck` (not the row STUCK): a step towards a wall is too short to change TIME.
+        # `stuck` is true if a step towards a wall is too short to change TIME (see NEAREST).
         near = 1.0 if a[Y2 + i] > 0.0 else -1.0
         stuck = a[TIME + i] + t == a[TIME + i] and t < a[LONGEST + i] and near * a[Y3 + i] > 0.0
         stuck = stuck and near * a[Y2 + i] > (1.0 - NEAREST) * a[CLEARANCE + i]
