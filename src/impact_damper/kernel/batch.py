@@ -192,7 +192,7 @@ def raise_largest(pool, chosen, count, kind):
     """After a step, update `pool.largest`, the largest |Z1| of each chosen trajectory.
 
     During the step |Z1| stays below `ends`, the larger of its values at both ends of the step, plus
-    `rise`. Only if this bound exceeds the largest |Z1| so far, the step's maximum is computed. In
+    `rise`. The largest |Z1| in the step is computed only if this bound exceeds `pool.largest`. In
     contact `rise` is the sum of the moduli of the terms of Z1's Taylor series, without the constant
     term. In flight `rise` follows from CHANGE, a bound on the change of Z1' in the step.
     """

@@ -148,12 +148,12 @@ class Writer:
         self.rows = rows(flight_order, contact_order)
 
     def at(self, row, k=0):
-        """Return the code, such as "a[48 + i]", of lane i's number in a row: k rows after `row`."""
+        """Return code such as "a[48 + i]": the number of lane i in the k-th row after `row`."""
         index = (self.rows[row] + k) * self.lanes
         return f"a[{index} + i]" if self.lanes > 1 else f"a[{index}]"
 
     def at_tangent(self, row, k=0):
-        """Return the code, such as "d[8 + i]", of tangent i's number in a row: k after `row`."""
+        """Return code such as "d[8 + i]": the number of tangent i in the k-th row after `row`."""
         return f"d[{(self.rows.get(row, 0) + k) * self.tangents} + i]"
 
     def function(self, name, lines, tangent=False, first=(), side_by_side=4):
@@ -173,7 +173,7 @@ class Writer:
         return f"{text}def {name}({arguments}):\n{calls}"
 
     def moving(self, phase):
-        """Return the names of the series in a step: "X" for Z1, in contact also "Q": "XQ"."""
+        """Return the names of a step's series: "X" (of Z1), or in contact "XQ" (also depth)."""
         return "XQ" if phase == "contact" else "X"
 
     def constant_series(self):
@@ -182,7 +182,7 @@ class Writer:
         return self.function("constant_series", self._stored(chain.from_iterable(lines), "EHD"))
 
     def _computed(self, k, names):
-        """Yield lines that compute coefficient k of the series E, H and D, if in `names`."""
+        """Yield lines that compute coefficient k of each series (E, H or D) in `names`."""
         factor = f"{1 / k!r} * " if k > 1 else ""
         if "E" in names and k < 2:
             beginning = [f"w = {self.at('FREQUENCY')}", "e0 = 1.0"], ["ww = w * w", "e1 = -w"]
@@ -429,7 +429,7 @@ def _sum(c, result, parts, done):
     """Yield lines of code that set `result` to the sum of c[k] t^k, from four partial sums.
 
     Each partial sum has every fourth term. `parts` are the partial sums of the first `done` terms.
-    The lines add the later terms in rising order, because high coefficients are computed last.
+    The lines add the later terms in rising order, because their coefficients are computed last.
     """
     for j in range(4):
         yield f"part{j} = {parts[j]}"

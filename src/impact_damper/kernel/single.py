@@ -31,8 +31,8 @@ PARAMETERS, STATE, KNOWN, X, Q = _ONE.FREQUENCY, _ONE.Y0, _ONE.KNOWN, _ONE.X, _O
 T, SWAY, SWAY_SLOPE, STUCK = _ONE.T, _ONE.SWAY, _ONE.SWAY_SLOPE, _ONE.STUCK
 DRAW, BASE_COSINE, BASE_SINE, E = _ONE.DRAW, _ONE.BASE_COSINE, _ONE.BASE_SINE, _ONE.E
 FLIGHT_ORDER, CONTACT_ORDER = _ONE.FLIGHT_ORDER, _ONE.CONTACT_ORDER
-# DX is the index in a workspace at which the Taylor coefficients of the tangents' Z1 begin. At DQ
-# the coefficients of the tangents' depth begin. Each order has COLUMNS numbers, one a tangent.
+# Indices in a workspace at which Taylor coefficients of the tangents begin: of Z1 (DX) and of the
+# depth in a wall (DQ). Each order has COLUMNS numbers, one for each tangent.
 _ROWS = rows(FLIGHT_ORDER, CONTACT_ORDER)
 DX, DQ = (BEHIND + _ROWS[name] * COLUMNS for name in ("DX", "DQ"))
 

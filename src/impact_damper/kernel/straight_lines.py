@@ -27,10 +27,10 @@ def straight(function):
     """Decorate a function whose body is a loop `for i in range(lanes)` of assignments.
 
     The number of lanes is at most WIDTH, or a multiple of WIDTH. The left side of `=`, `+=` or `-=`
-    is a name, an entry `a[1 + i]` or, with one lane, `a[1]`. The right side consists of names,
-    constants, `a[1 + i]`, `a[1]` (equal in all lanes), `(1.0, 2.0)[i]` (a constant for each lane),
-    `+`, `-`, `*`, `/`, `abs(x)`, and `max(x, y)`, which means `x if x > y else y`. `(x, y)` is a
-    pair of numbers, and `x, y = ...` unpacks a pair. An operator acts on both numbers of a pair.
+    is a name, an array entry such as `a[1 + i]` or, with one lane, `a[1]`. The right side may have
+    names, constants, `a[1 + i]`, `a[1]` (equal in all lanes), `(1.0, 2.0)[i]` (a constant for each
+    lane), `+`, `-`, `*`, `/`, `abs(x)`, and `max(x, y)`, which is `x if x > y else y`. `(x, y)` is
+    a pair of numbers, and `x, y = ...` unpacks a pair. An operator acts on both numbers of a pair.
     """
     function.write = write
     return function

@@ -53,7 +53,7 @@ class Model(NamedTuple):
 
 
 def read_system(system, damper=None, *, needs_damper=False) -> Model:
-    """Check `system` and `damper`. Return their `Model`. `damper` may be None if not needed."""
+    """Check arguments and return their `Model`. `damper` may be None unless `needs_damper`."""
     if isinstance(system, Machine):
         if damper is None and not needs_damper:
             return Model(system.oscillator(), None, None, system)

@@ -1,4 +1,4 @@
-"""Allowed ranges of parameters and arguments, and checks. With values in them every run ends.
+"""Allowed ranges of parameters and arguments, and checks. Within the ranges every run ends.
 
 A range is a dictionary of keyword arguments of `check_number` or `check_count`.
 """
@@ -42,9 +42,9 @@ PERIODS_RANGE = {"least": 1, "most": 10**6}
 # Range of the number of cycles in a run that measures how long chaos lasts.
 LIFETIME_RANGE = {"least": 100, "most": 10**7}
 SEED_RANGE = {"least": 0, "most": 2**63 - 1}
-# Largest |displacement| and |velocity| of a start. With larger ones a cycle takes minutes.
+# Largest |displacement| and |velocity| of a start. Beyond, it takes minutes to compute a cycle.
 FARTHEST, FASTEST = 1e3, 1e6
-# Range of the highest harmonic N of a harmonic balance. It needs memory ~ N^2 and time ~ N^3.
+# Range of the highest harmonic N of a harmonic balance. Memory grows as N^2, time as N^3.
 HARMONIC_RANGE = {"least": 1, "most": 2**14}
 PACKAGE = f"{__name__.partition('.')[0]}."
 POINTS_RANGE = {"least": 2, "most": 10**5}
@@ -128,7 +128,7 @@ def check_frequency(value):
 
 
 def check_starts(starts, points, least=1):
-    """Raise an error if so many starts, at each of `points` values of a parameter, are too many."""
+    """Raise an error if the number `starts`, at each of `points` parameter values, is too large."""
     most = max(least, MOST_RUNS // points)
     check_count("starts", starts, least=least, most=most, why=f"memory holds {MOST_RUNS} runs")
 

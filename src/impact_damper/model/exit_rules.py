@@ -32,7 +32,7 @@ def restitution(ratio) -> float:
 
 @cache
 def damping_ratio(restitution_, rule=ZERO_PENETRATION) -> float:
-    """Return the damping ratio of contacts with the restitution `restitution_`, by `rule`."""
+    """Return the damping ratio of contacts that end by `rule` and have this restitution."""
     logarithm = math.log(1 / restitution_)
     if rule == ZERO_PENETRATION or not logarithm:
         return logarithm / math.hypot(math.pi, logarithm)

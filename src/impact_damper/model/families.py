@@ -13,7 +13,7 @@ from impact_damper.model.parameters import Damper, Oscillator
 PARAMETERS = {"frequency": None}
 PARAMETERS |= dict.fromkeys(("damping", "cubic", "force", "unbalance"), Oscillator)
 PARAMETERS |= dict.fromkeys(("mass_ratio", "clearance", "restitution", "contact_stiffness"), Damper)
-# Parameters that are the coordinate along a branch. Other parameters have their logarithm there.
+# For these parameters the coordinate along a branch is the value, for others the value's logarithm.
 LINEAR = ("frequency", "cubic", "force", "unbalance", "restitution")
 # Indices, in packed parameters, of F and U in the amplitude F + U W^2 of the forcing.
 FORCING = {"force": FORCE, "unbalance": UNBALANCE}
@@ -29,7 +29,7 @@ def facts_of(parameter) -> tuple:
 
 
 def read_followed(model, parameter, span) -> tuple:
-    """Check `parameter` and `span`. Return the parameter's key in PARAMETERS and the scaled span.
+    """Check `parameter` and `span`. Return the key in PARAMETERS and the dimensionless span.
 
     `parameter` is the name that the user gives, for a `Machine` the machine's name. The model's own
     value of the parameter must lie in the span.

@@ -111,7 +111,7 @@ class HertzContact:
     def stiffness(self, speed, mass) -> float:
         """Return the stiffness k (N/m) of a linear spring that an impact compresses as far.
 
-        It follows from k q^2 = m v^2, with q, m and v as in `compression`. The largest force of the
-        spring, k q, is 4/5 of the largest force of the contact.
+        k q^2 = m v^2, with q, m and v as in `compression`. The largest force of the spring, k q, is
+        4/5 of the largest force of the contact.
         """
         return 0.8 * self.coefficient * self.compression(speed, mass) ** 0.5

@@ -130,7 +130,7 @@ def from_response(cls, data, *, force) -> Identified:
 
 
 def _fit(residuals, guess, scale):
-    """Return the fitted parameters, their standard errors, the residuals' deviation, a message."""
+    """Return fitted parameters, their standard errors, the residuals' scatter, and a message."""
     import numpy as np
     from scipy.optimize import least_squares
 

@@ -102,7 +102,7 @@ class Oscillator:
         return [name for name in NONLINEAR if getattr(self, name)]
 
     def told(self, *names) -> str:
-        """Return named parameters as text, such as "cubic = 1"; in SI units for a machine."""
+        """Return parameters as text, such as "cubic = 1". For a machine they have SI units."""
         found = []
         for name in names:
             facts = self.__dataclass_fields__[name].metadata
@@ -207,9 +207,9 @@ class Damper:
 
 
 def beyond_closed_forms(oscillator, damper) -> list:
-    """Return which of three parameters are not 0: "gravity" and "friction", and "base".
+    """Return which of the parameters gravity, friction and base are not 0.
 
-    Each is returned as a pair of its owner, `damper` or `oscillator`, and its name.
+    Each is returned as a pair: `damper` or `oscillator`, to which it belongs, and its name.
     """
     terms = (damper, "gravity"), (damper, "friction"), (oscillator, "base")
     return [(part, name) for part, name in terms if getattr(part, name)]

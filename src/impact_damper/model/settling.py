@@ -16,8 +16,8 @@ class Settling:
     tolerance : float
         Largest local error in a step of the integrator, dimensionless.
     patience : int
-        Number of forcing cycles after which a run is stopped in two cases: its motion is chaotic
-        with a Lyapunov exponent above 0.05 (per unit of T), or its loose mass has touched no wall
+        Number of forcing cycles after which a run is stopped in two cases: the motion is chaotic
+        with a Lyapunov exponent above 0.05 (per unit of T), or the loose mass has touched no wall
         during these cycles and hardly moves.
     limit : int
         Number of forcing cycles after which every run that is left is judged. If chaos is certain,

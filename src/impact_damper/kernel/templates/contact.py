@@ -12,7 +12,7 @@ def loose_mass(a, i, t):
 
 
 def first_guess(a, i):
-    """Estimate the time of a contact from distance, speed and acceleration at the beginning."""
+    """Estimate when a contact begins, from the state at the beginning of the flight."""
     distance = min(a[CLEARANCE + i], FAR) - a[WALL + i] * a[Y2 + i]
     speed = abs(a[Y3 + i])
     bend = a[WALL + i] * (a[G + i] + a[ACROSS + i])
@@ -51,7 +51,7 @@ def expect_contact(a):
 
 
 def guess_contact(a):
-    """Set T to the estimated time of a contact in lanes in mode BRACKET. Set other T to LENGTH."""
+    """Set T to the estimated time of a contact in lanes in mode BRACKET, in others to LENGTH."""
     for i in range(LANES):
         a[T + i] = min(first_guess(a, i), a[LENGTH + i])
     flight_early(a)
@@ -119,7 +119,7 @@ def find_contact(a):
 
 
 def meet_expected(a):
-    """Find expected contacts with one step of Chebyshev's method. Count the undecided lanes."""
+    """Find expected contacts by one Chebyshev step. Return how many lanes are still undecided."""
     flight_curve(a)
     find_sway(a)
     undecided = 0

@@ -43,7 +43,7 @@ def find_forcing(a):
 def forcing(a):
     """Compute COSINE = A cos(W t) and SINE = A sin(W t) at the time t = TIME. A is F + U W^2.
 
-    With one lane, if the time KNOWN is close to TIME, correct the values of both at KNOWN.
+    With one lane, if KNOWN is close to TIME, correct the COSINE and SINE at the time KNOWN.
     """
     t = a[FREQUENCY] * (a[TIME] - a[KNOWN])
     if LANES > 1 or not abs(t) < NEAR:

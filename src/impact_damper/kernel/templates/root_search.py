@@ -15,7 +15,7 @@ contact f is q + LAG q' (`separation`). The contact ends at the root of f. Value
 
 # Rounding error of an event function, relative to its largest term: 4 units in the last place.
 ROUNDING = 2.0**-50
-# A search in mode BRACKET ends when the estimated error is at most LAST_MOVE times the tolerance.
+# A search in mode BRACKET ends when the root's estimated error is LAST_MOVE * tolerance or less.
 LAST_MOVE = 0.01
 MARCH, BRACKET, ENDING, MET, MISSED, MET_DEEP, TURNED = 0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0
 # TINY prevents divisions by zero. FAR replaces infinity, because 0 times infinity is NaN.
@@ -56,7 +56,7 @@ def chebyshev(first, bend):
 
 
 def is_last_move(a, i, move, rate):
-    """Return whether a search can end after a `move` in time. Its error is about (rate move)^3."""
+    """Return whether the root is accurate after a `move`. Its error is about (rate move)^3."""
     turn = max(rate, 2.0 / a[LENGTH + i]) * move
     return abs(turn * turn * turn) <= max(LAST_MOVE * a[TOLERANCE + i], ROUNDING)
 
@@ -92,7 +92,7 @@ def bracketed_step(a, i, t, f, first, bend, rate, fine):
 
 
 def store_end(a, i, row, end, move, going):
-    """Extrapolate a function by the time `move`, and store its value and slope there.
+    """Extrapolate a function by the time `move`. Store the value and the slope at the new time.
 
     The four rows from `row` on hold the function and its first three derivatives before the move.
     The two rows from `end` on receive the value and the slope, if `going` is true.

@@ -22,7 +22,7 @@ def fast_exp2(y):
 
 
 def time_to_zero(f, slope, natural):
-    """Return about how long a harmonic oscillation with the value f and this `slope` takes to 0."""
+    """Estimate after what time an oscillation is 0. Its value now is f, its frequency `natural`."""
     u = natural * f * (natural * f)
     v = slope * slope
     return -f * (15.0 * v + 4.0 * u) / (slope * (15.0 * v + 9.0 * u))
@@ -66,10 +66,10 @@ def find_separation(a):
     none, T becomes LENGTH and MODE becomes MISSED. END_Z1 and END_Z1_SLOPE receive Z1 and Z1' at T.
     END_DEPTH and END_DEPTH_SLOPE receive the depth Z2 - SIDE d0 and the slope of the depth at T.
 
-    Here q is the depth times SIDE, n the natural frequency of the contact, and `loss` is
-    DASHPOT (1 + 1/rm). Then |q'' + n^2 q + loss q'| is at most `rest`. The phase is the
-    angle of the point (n q, q') around the origin, and R is its distance from the origin. R grows
-    at most at the rate rest, and falls at most at the rate rest + loss R. The phase advances at the
+    Here q is the depth times SIDE, n the natural frequency of the contact, and `loss` is DASHPOT
+    (1 + 1/rm). Then |q'' + n^2 q + loss q'| is at most `rest`. The phase is the angle of the point
+    (n q, q') around the origin, and R is the distance of this point from the origin. R grows at
+    most at the rate rest, and falls at most at the rate rest + loss R. The phase advances at the
     rate n, to within rest/R + loss/2. q + LAG q' is zero twice in a revolution of the phase. If
     rest/R + loss/2 is below PHASE_MARGIN n, the step has at most one root, and MODE is BRACKET.
     """

@@ -15,8 +15,8 @@ ONE = 1023 << 52
 # The last terms of the series of Z1' and Z2' in a step should be below SAFETY * tolerance * max(1,
 # |Z1|, |Z1'|, ...). With 0.05 the errors of settled motions are below 10 times the tolerance.
 SAFETY = 0.05
-# `predict_length` predicts the length of a flight, which is not exact. The flight is shortened only
-# if the last terms of its series exceed EXCESS times the value wanted (`largest_tail`).
+# The length that `predict_length` gives a flight is not exact. The flight is shortened only if the
+# last terms of its series exceed EXCESS times the size wanted, `largest_tail`.
 EXCESS = 4.0
 # A step in flight that begins at |Z2| > d0, while the wall is still coming back to d0, lasts
 # at most OUTSIDE times LAG. In the time LAG the wall's displacement falls to 1/e of its value.
