@@ -25,10 +25,10 @@ def compile_all(processes, orders) -> None:
     gc.disable()
     fork = get_context("fork")
     with ProcessPoolExecutor(processes, fork, initializer=end_with_parent) as pool:
-        for half in [pool.submit(warm_up_orbits), pool.submit(warm_up_settling)]:
-            half.result()
-        # This task starts last, because it needs kernels that the other two tasks compile.
-        pool.submit(warm_up_paper, orders).result()
+        # With two processes the third task starts when the first one has ended.
+        tasks = [pool.submit(warm_up_orbits), pool.submit(warm_up_settling)]
+        for task in [*tasks, pool.submit(warm_up_paper, orders)]:
+            task.result()
 
 
 def warm_up_paper(orders=()) -> None:
@@ -46,9 +46,6 @@ def warm_up_paper(orders=()) -> None:
     from impact_damper.model.settling import Settling
     from impact_damper.motions.strobe_map import strobe_time
 
-    settling = Settling(patience=100, limit=100, watched=1)
-    numbers = {"trials": 1, "cells": 4, "settling": settling}
-    release_policies(OSCILLATOR, [DAMPER], [FREQUENCY], **numbers)
     p = pack(OSCILLATOR, DAMPER, 2.0)
     start, begin = np.array([0.082, 0.169, 0.381, -1.088]), strobe_time(p)
     for each in (ORDERS, *map(tuple, orders)):
@@ -63,6 +60,10 @@ def warm_up_paper(orders=()) -> None:
     for each in integrators("stable_steps").values():
         each.largest_displacements(p, start, begin, 1, 100)
     draw_passages(p, 1, 2.0, 0.1, 1995)
+    # This call comes last, because it needs kernels that `warm_up_settling` compiles.
+    settling = Settling(patience=100, limit=100, watched=1)
+    numbers = {"trials": 1, "cells": 4, "settling": settling}
+    release_policies(OSCILLATOR, [DAMPER], [FREQUENCY], **numbers)
 
 
 if __name__ == "__main__":
