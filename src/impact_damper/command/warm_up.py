@@ -37,10 +37,9 @@ def warm_up_orbits() -> None:
     problem = Problem.of(lambda value: np.append(value, on[1:]), orbit, symmetric=False)
     problem.correct(np.append(orbit.state, on[0]), np.eye(5)[-1])
 
-    from impact_damper.motions import legs, steady
+    from impact_damper.motions import legs
 
-    one, out, stop = np.zeros((1, 4)), np.zeros(1, records.MOTION), np.ones(1, bool)
-    steady.settle_each(on[None], one, np.zeros(1), 1e-9, 1, 1, out, stop)
+    records.measure_orbits(on[None], 1e-9, np.zeros(1, records.MOTION), np.zeros(1, bool))
     legs.leg(off, on, np.zeros(4), 0.0, 0.0, 0.0, 1e-9, 2)
 
 
