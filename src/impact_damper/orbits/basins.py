@@ -193,7 +193,6 @@ def _sides(scales, sizes, displacement, velocity):
 
 
 def _free(p, plane, window, reach, phase, cells, settling, running):
-    """Label the states of a plane, without a damper. Return dataset variables and a `Labelled`."""
     attractors = free_attractors(p, reach / 2, settling)
     limits = settling.tolerance, settling.limit
     labels, periods = label_states(p, plane, phase, attractors, *limits, **running)
@@ -248,7 +247,6 @@ def boundary_data(p, attractors, window, reach, phase, cells, settling):
 
 
 def _damped(p, plane, damper, phase, cells, loose, settling, running):
-    """Label the states of a plane, with a damper. Return dataset variables and a `Labelled`."""
     if loose is None:
         places = [(place * damper.clearance, 0.0) for place in PLACES]
     else:

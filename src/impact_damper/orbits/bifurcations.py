@@ -43,16 +43,15 @@ class Event(NamedTuple):
 def _reversal(point, symmetric):
     """Return a number that is zero where one of `Orbit.cycle_multipliers` is -1.
 
-    There a symmetric orbit loses its symmetry, and any other orbit doubles its period. Only one
-    kind of orbits is tested: symmetric orbits if `symmetric` is True, orbits that are not symmetric
-    if it is False. For an orbit that is not tested return 1.
+    There a symmetric orbit loses its symmetry, and any other orbit doubles its period. If
+    `symmetric` is True, return 1 for orbits that are not symmetric, otherwise for symmetric orbits.
     """
     orbit = point.orbit
     return _product(orbit.cycle_multipliers + 1) if (orbit.sign < 0) == symmetric else 1.0
 
 
 def _pairs(point):
-    """Return a number that is zero if the product of any two multipliers of the orbit is 1."""
+    """Return a number that is zero if the orbit has two multipliers whose product is 1."""
     values = point.orbit.multipliers[: point.orbit.active]
     first, second = PAIRS[len(values)]
     return _product(values[first] * values[second] - 1)
@@ -63,7 +62,7 @@ def _product(values):
 
 
 # For each kind of bifurcation: a function of a point of a branch, which is zero at the bifurcation,
-# and the error allowed in the distance along the branch at which the bifurcation lies.
+# and the error allowed in the place of the bifurcation (see `bifurcations_between`).
 TESTS = {
     "fold": (lambda point: point.tangent[-1], 1e-7),
     "symmetry_breaking": (partial(_reversal, symmetric=True), 1e-11),
@@ -132,7 +131,6 @@ def events_between(start, end, length):
 
 
 def _is_complex_pair(multipliers):
-    """Return whether the two multipliers whose product is closest to 1 are complex conjugates."""
     values = multipliers[np.isfinite(multipliers)]
     first, second = PAIRS[len(values)]
     k = np.argmin(np.abs(values[first] * values[second] - 1))
@@ -141,7 +139,6 @@ def _is_complex_pair(multipliers):
 
 
 def _changes_of_contact(point_at, start, end, length):
-    """Return (place, `Event`) for each change in the order of contacts from `start` to `end`."""
     located, inner, before = [], 0.0, start.orbit.sequence
     while before != end.orbit.sequence and len(located) < MOST_CHANGES:
         outer, after = length, end.orbit

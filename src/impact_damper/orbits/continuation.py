@@ -66,14 +66,15 @@ class Point(NamedTuple):
 class Problem:
     """The equations for the orbits of a branch: each segment ends where the next one begins.
 
-    In the metric, the squared distance of two points is the squared difference of their parameters
-    plus the squared distance of their states, averaged over the segments.
+    The squared distance of two points is the sum of two terms: the squared difference of their
+    parameters, and the mean over the segments of the squared distance of their first states.
 
     `family(value)` is the array `p` of all parameters for `Point.value`. The segments begin and the
     last one ends at `phases`. If `symmetric`, all orbits are symmetric, and the segments cover half
-    the period. `damped`: there is a damper. `loose` is (Z2 - Z1, Z2' - Z1'), constant without a
-    damper. `rough` is the largest norm of a matrix in `Orbit.factors` when `recut` last divided the
-    orbit into several segments. It is 0 for one segment and before `recut` is first called.
+    the period. `damped`: there is a damper. `loose` is used without a damper only: it is the
+    constant (Z2 - Z1, Z2' - Z1'), from which Z2 and Z2' follow. `rough` is the largest norm of a
+    matrix in `Orbit.factors` when `recut` last divided the orbit into several segments. It is 0 for
+    one segment and before `recut` is first called.
     """
 
     family: Callable[[float], np.ndarray]
@@ -233,7 +234,7 @@ def point_at_distance(origin, point, ahead, distance):
 
 
 def point_at_value(point, ahead, value):
-    """Return the point from `point` to `ahead` with the parameter `value`, or None if not found."""
+    """Return the point with the parameter `value` between `point` and `ahead`, or None."""
     problem, chord = point.problem, ahead.x - point.x
 
     def beyond(fraction):
@@ -266,12 +267,14 @@ def _cubic(point, ahead, fraction):
     return point.x + fraction * length * point.tangent + bent
 
 
-# A step above one of these bounds may lead to another branch and is rejected. TURNED: angle between
-# the tangents at the step's ends, radian. SKEW: length of the difference of two unit vectors, one
-# from end to end of the step, the other along the mean of the two tangents.
+# A step above one of these bounds may lead to another branch and is rejected.
+# TURNED: angle between the tangents at the two ends of the step, radian.
+# SKEW: length of the difference of two unit vectors. One has the direction from the first to the
+# last point of the step, the other the direction of the mean of the two tangents.
 TURNED, SKEW = 0.5, 0.03
-# A step is planned to be as long as AIM x TURNED and AIM^2 x SKEW allow. Its length is at most
-# GROWTH times, and after a rejected step at least SHRINKAGE times, the length of the step before.
+# The next step is made so long that its angle (see TURNED) is expected to be AIM x TURNED or less.
+# It is at most GROWTH times as long as the step before. After a rejected step it is at least
+# SHRINKAGE times as long as the rejected step.
 AIM, GROWTH, SHRINKAGE = 0.65, 1.5, 0.3
 
 
@@ -329,7 +332,7 @@ NEAR_SECTION, ROUGHER, MILD = 0.02, 4.0, 0.5
 
 
 def holds_still(point):
-    """Return whether the orbit of `point` need not be divided into new segments."""
+    """Return False if the orbit of `point` must be divided into new segments, otherwise True."""
     problem, orbit = point.problem, point.orbit
     if not problem.damped:
         return True

@@ -22,9 +22,9 @@ from impact_damper.orbits.segments import flow_all
 
 # Increase of the phase W T in one forcing cycle, radian.
 TURN = 2 * math.pi
-# An orbit has converged if its residual is below a bound x max(1, largest component of a state).
-# The bound is RESIDUAL. For an orbit with contacts it is at least STIFF_RESIDUAL times the natural
-# frequency of a contact.
+# An orbit has converged if its residual is at most bound x max(1, largest component of a state).
+# Without contacts the bound is RESIDUAL. With contacts it is the larger of two numbers: RESIDUAL,
+# and STIFF_RESIDUAL times the natural frequency of a contact.
 RESIDUAL, STIFF_RESIDUAL = 1e-12, 7e-15
 # The phase at which an orbit begins should be at least this far from a contact, radian.
 MARGIN = 0.15
@@ -156,7 +156,8 @@ class Orbit:
         """Contacts, largest |Z1|, and complex first harmonics of Z1 and Z2, in all segments."""
         states, phases = self.states.copy(), self.phases
         if side_of(self.p, states[0]) != 0:
-            # The first state lies in a contact. Two cycles include the beginning of this contact.
+            # The first state lies in a contact. This contact begins again shortly before the cycle
+            # ends, and ends in the next cycle. So two cycles are integrated.
             phases = self.phases[0] + np.array([0.0, 2 * self.cycle])
         times = phases / self.p[FREQUENCY]
         room, sums = 2 * CONTACTS * (self.periods + len(states)), np.empty((2, 2))
@@ -197,7 +198,7 @@ class Orbit:
 
     def at(self, phase):
         """Return the state at a phase W T, radian, equal to or greater than the first phase."""
-        # A single segment is integrated beyond its end. If there are several, they are repeated.
+        # With several segments, a multiple of `cycle` is subtracted to get a phase in one of them.
         turns = int((phase - self.phases[0]) // self.cycle) if len(self.states) > 1 else 0
         local = phase - turns * self.cycle
         k = min(max(int(np.searchsorted(self.phases, local, "right")) - 1, 0), len(self.states) - 1)
@@ -210,7 +211,8 @@ class Orbit:
         """Deviation from symmetry or, if `periods` is even, from an orbit of half the period.
 
         It is the first state plus the state half a period later, or for even `periods` the first
-        state minus the state half a period later, shape (4,). If `sign` is -1, all four are 1.
+        state minus the state half a period later, shape (4,). If `sign` is -1, the orbit is
+        symmetric. Then (1, 1, 1, 1) is returned, since it does not change its sign along a branch.
         """
         if self.sign < 0:
             return np.ones(4)
@@ -237,7 +239,7 @@ class Orbit:
         return record
 
     def is_same(self, other, tolerance=1e-6):
-        """Return whether `other` is this orbit or its mirror image, begun in any forcing cycle."""
+        """Return whether `other` is this orbit or its mirror image. First phases may differ."""
         if other.periods != self.periods:
             return False
         first = self.phase + (STROBE - self.phase) % TURN + TURN / 2

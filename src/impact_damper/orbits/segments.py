@@ -25,11 +25,12 @@ from impact_damper.kernel.tangents import advance
 from impact_damper.model.packed import CLEARANCE, COUNT, FREQUENCY
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 
-# Orthogonal iteration separates two multipliers only if the ratio of their moduli exceeds APART.
+# Two multipliers are computed separately, by orthogonal iteration, if the ratio of their moduli
+# exceeds APART. Other multipliers are computed together as the eigenvalues of a small matrix.
 APART = 30.0
 # Orthogonal iteration ends after SWEEPS passes over all segments, or if a pass changes the basis by
-# less than SETTLED. It separates two multipliers only if the last pass changed the basis by less
-# than COUPLED.
+# less than SETTLED. Two multipliers are computed separately only if the last pass changed the basis
+# by less than COUPLED.
 SWEEPS, SETTLED, COUPLED = 14, 1e-15, 1e-8
 # If possible, a small disturbance grows by less than this factor along a segment.
 AMPLIFIED = 30.0
@@ -44,7 +45,7 @@ def run(p, state, tangents, begin, end):
 
 
 def cyclic(factors):
-    """Return d(`Orbit.defects`)/d(first states), shape (m n, m n), for `factors` of m segments."""
+    """Return d(`Orbit.defects`)/d(`Orbit.states`), (m n, m n), from `factors`, shape (m, n, n)."""
     m, n = factors.shape[:2]
     matrix, k = np.zeros((m, n, m, n)), np.arange(m)
     matrix[k, :, k] = factors

@@ -323,7 +323,6 @@ def _worse(data, nominal):
 
 
 def _other_mass(data, asked):
-    """Return a good damper with another mass if the damper asked for is not good, or None."""
     missed = named(data, "limit_status") == "missed"
     fails = missed or named(data, "decision") == "do_not_build"
     if "other_mass" not in data or not fails:
