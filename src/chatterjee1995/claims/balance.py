@@ -110,10 +110,7 @@ def _elastic_orbits(datasets):
 
 
 def design_multipliers(datasets):
-    """Return for each design of figure 3 the largest |multiplier| of its exact quiet orbit.
-
-    The orbit is taken at the peak frequency of the design.
-    """
+    """Return the largest |multiplier| of the quiet orbit at each design point of figure 3."""
     followed = reading.select(datasets, "design_orbit", ALL_DESIGNS)
     return np.array([reading.largest_multiplier(reading.design_point(each)) for each in followed])
 

@@ -23,7 +23,10 @@ def part(share, digits=2) -> str:
 
 
 def rounding(distance) -> str:
-    """Return in words whether an error, in half units of the last digit, is at most 1."""
+    """Return in words whether a printed number is rounded right.
+
+    `distance` is the error of the number, divided by half a unit of its last digit.
+    """
     return "a right rounding" if distance <= 1 else "not a rounding"
 
 
@@ -100,7 +103,7 @@ class Claim:
         return {Bound.read(bound).name: words for bound, words in texts.items() if words}
 
     def verdict(self, values) -> str:
-        """Return the verdict: "not decidable" if a value is NaN and no required bound fails."""
+        """Return the verdict on the claim, such as "reproduced", for the numbers `values`."""
         required, wished = (
             [Bound.read(text).holds(values) for text in bounds]
             for bounds in (self.required, self.full_agreement)
@@ -124,7 +127,7 @@ class Claim:
         return " ".join(parts)
 
     def sentences(self, values) -> str:
-        """Return the finding as text, or, if the claim is not decidable, the unknown numbers."""
+        """Return the finding as text, or a text that says which numbers are unknown (NaN)."""
         if self.verdict(values) != NOT_DECIDABLE:
             return " ".join(SENTENCES.from_string(self.finding).render(values).split())
         unknown = [words for name, words in self.meanings.items() if math.isnan(values[name])]

@@ -17,7 +17,11 @@ def any_phase(datasets):
 
 
 def _release_shares(case, kind, free_motion="non_resonance"):
-    """For each damped motion of a kind return the share of releases that lead to `free_motion`."""
+    """Return an array: for each motion with the damper the share of releases to `free_motion`.
+
+    Only motions of the kind `kind`, such as "quiet" or "unsettled", are in the array. `case` is a
+    dataset of the stage `migration`, or of the stage `release_scan` at one frequency.
+    """
     rows = case.damped_kind.values == flag("released_from", kind)
     shares = case.release_share.sel(free_motion=free_motion, bound="share").values[rows]
     return shares[np.isfinite(shares)]
@@ -60,11 +64,6 @@ def _scanned(datasets, case):
 
 
 def _nearest_range(decides, frequency):
-    """Return the lowest and the highest W of the range that is nearest to `frequency`.
-
-    `decides` is a dict: W -> whether the phase of release decides which motion follows. A range
-    consists of neighbouring W at which the phase decides.
-    """
     scanned = list(decides)
     ends = [
         (scanned[first], scanned[last - 1]) for first, last in runs_of_true(list(decides.values()))
@@ -123,7 +122,11 @@ def early_release(datasets):
 
 
 def by_policy(datasets, case, policy):
-    """Return the share of runs in which a release policy succeeds, and the median cycles needed."""
+    """Return the share of runs in which a release policy succeeds, and the median time to success.
+
+    A run succeeds if it reaches the goal within 350 cycles. Its time is in cycles, and infinite
+    without success. Both results are NaN if the policy was not tried with the damper of `case`.
+    """
     damper, frequency = damper_of(case), reading.parameter(case, "frequency")
     names = "mass_ratio", "clearance", "restitution"
     for data in datasets.get("release_policies", {}).values():

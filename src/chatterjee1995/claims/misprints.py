@@ -17,7 +17,7 @@ SHALLOW = 0.02  # largest ratio of penetration to clearance at which the expansi
 
 
 def misrounding(printed, computed):
-    """Return the error of a printed number in half units of its last digit."""
+    """Return the error of a printed number, divided by half a unit of its last digit."""
     decimals = len(f"{printed:g}".partition(".")[2])
     return abs(printed - computed) * 2 * 10**decimals
 
@@ -57,7 +57,7 @@ def captions(datasets):
 
 
 def state_size(datasets):
-    """Return the number of components of an initial state, which omission S3 is about."""
+    """Return numbers on omission S3: how many components a state has. The paper prints three."""
     motion = reading.get(datasets, "motion", "figure_04")
     return {"components": sum(name in motion for name in STATE)}
 

@@ -134,7 +134,7 @@ def contact_model(datasets):
 
 
 def _duration(restitution):
-    """Return the duration of a contact without load, divided by the duration for e = 1."""
+    """Return (duration of a contact)/(duration for e = 1), if only the wall acts on the mass."""
     return 1 / math.sqrt(1 - damping_ratio(restitution) ** 2)
 
 

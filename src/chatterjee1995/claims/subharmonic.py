@@ -15,7 +15,7 @@ def _remaining(datasets, name):
 
     `band`: width in W of the suppression band by harmonic balance.
     `in_band`: width of the part of the suppression band in which such orbits exist.
-    `between`: width of the part of the range of the free subharmonic in which such orbits exist.
+    `between`: width of the range of W in which both such orbits and the free subharmonic exist.
     `ratio`: largest (max |Z1| of such an orbit)/(max |Z1| of the free subharmonic at the same W).
     `ratio_in_band`: largest such ratio in the suppression band.
     """
@@ -66,7 +66,8 @@ def _reduction(datasets, name):
     `fall`: reduction of max |Z1| by the damper, averaged over W and starts. A start that leads to
     no subharmonic counts as max |Z1| = 0.
     `relative`: `fall` divided by the mean of max |Z1| without the damper.
-    `unchanged`: share of the range of W in which the damper hardly reduces a stable subharmonic.
+    `unchanged`: a fraction of the range of W in which the free subharmonic exists. In this part, a
+    stable subharmonic with the damper has at least AS_LARGE times the free max |Z1|.
     """
     branches, free = orbits.of_curve(datasets, name)
     ends = orbits.subharmonic_range(free)

@@ -60,7 +60,7 @@ VIOLENT = {
 
 @style.context()
 def draw_harmonic_convergence(*, harmonic_convergence):
-    """Draw errors of harmonic balance against the highest harmonic, and ends of Newton's method."""
+    """Draw three errors of harmonic balance, and in panel (d) what Newton's method finds."""
     drawn = style.figure("double", 6.4)
     panels = drawn.subplots(2, 2, sharex=True)
     style.letter_panels(panels.flat)
@@ -90,7 +90,6 @@ def _draw_errors(axes, harmonics, measure):
 
 
 def _guide(data, at):
-    """Return points of a line that falls as predicted, a factor of 3 above the computed errors."""
     highest, error = data["highest_harmonic"].values, at["series_error"].values
     used = (highest >= data["asymptotic_harmonic"].item()) & (error > ROUNDING)
     if not used.any():
@@ -98,6 +97,7 @@ def _guide(data, at):
     highest, error = highest[used], np.log(error[used])
     exponential = decode(data["decay_kind"]) == "exponential"
     decay = -at["decay_predicted"].item() * (highest if exponential else np.log(highest))
+    # The factor of 3 draws the predicted decay above the computed errors.
     return highest, 3 * np.exp(decay + np.mean(error - decay))
 
 

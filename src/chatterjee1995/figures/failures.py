@@ -10,7 +10,7 @@ from impact_damper.plot.maps import edges_of
 
 COLUMNS = 3  # panels side by side
 LINEAR = "linear stability limit"
-# Words in the legend -> look of the line. The first two lines are for the allowed errors.
+# Words in the legend -> look of the line. "within" limits the relative error of max |Z1|.
 LINES = {
     "within 1 %": {"marker": "o", "markerfacecolor": style.WHITE, "linestyle": (0, (4, 2))},
     "within 10 %": {"marker": "s"},
@@ -98,7 +98,6 @@ def _draw_method(axes, data, index, title):
 
 
 def _edges(values):
-    """Return the edges of map cells around values on a log axis. A single cell is a decade wide."""
     if len(values) == 1:
         return np.asarray(values) * np.sqrt([0.1, 10])
     return np.exp(edges_of(np.log(values)))

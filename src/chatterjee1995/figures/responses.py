@@ -87,7 +87,6 @@ def _restitution(data):
 
 
 def _period_3(motions):
-    """Return the dataset with all motions marked as absent, except for periods 3, 6, 9, ..."""
     period = motions["period"]
     chosen = is_settled(motions) & (period > 1) & (period % 3 == 0)
     outcome = motions["outcome"].where(chosen, flag("outcome", "absent"))

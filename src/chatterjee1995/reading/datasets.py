@@ -71,7 +71,7 @@ def is_outcome(data, *meanings):
 
 
 def touching(response):
-    """Return a mask of the bounded motions in which the loose mass touches a wall."""
+    """Return a mask of the motions with contacts. Motions that diverge or escape do not count."""
     steady = is_outcome(response, "settled", "quasi_periodic", "chaotic", "unresolved")
     return steady & (response.contacts > 0)
 
@@ -110,19 +110,19 @@ def band_edges(design):
 
 
 def stable_impacting(design):
-    """Return the amplitude a of each solution of (7), NaN if it has no impacts or is not stable."""
+    """Return amplitudes of solutions of (7) that are stable and have contacts, NaN for others."""
     stable = design.stability == flag("stability", "stable")
     return design.amplitude.where(stable & (design.kind == flag("kind", "impacting")))
 
 
 def quiet_balance(design):
-    """Return at each W the amplitude a of least |a| among stable solutions of (7) with impacts."""
+    """Return for each W, of all stable solutions of (7) with contacts, the amplitude nearest 0."""
     amplitude = stable_impacting(design)
     return amplitude.isel(solution=np.abs(amplitude).fillna(np.inf).argmin("solution"))
 
 
 def design_point(orbit):
-    """Return the exact quiet orbit at the peak frequency from a dataset, or raise Missing."""
+    """Return from a dataset of the stage `design_orbit` the quiet orbit at the design point."""
     if named(orbit, "design_orbit_status") != "found":
         raise Missing("There is no quiet orbit at a design point: the continuation ended before")
     return orbit.isel(point=int(np.argmin(orbit.followed_value.values)))

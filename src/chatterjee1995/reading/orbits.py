@@ -35,13 +35,14 @@ def pieces(branches) -> pd.DataFrame:
     """Return a table of pieces. A piece joins two successive orbits of a branch.
 
     `lower`, `upper`: the lower and the higher frequency W of the two orbits.
-    `fewest`, `contacts`: the lower and the higher number of contacts a cycle of the two orbits.
+    `fewest`, `contacts`: contacts per cycle in the orbit with fewer and in the orbit with more.
     `restitution`: the least ratio of the speed after a contact to the speed before this contact.
     `frequency`, `size` (max |Z1|), `amplitude`, `loose`: means over the two orbits.
-    `frequency_change` and so on: the value at the second orbit minus the value at the first orbit.
+    `frequency_change`, `size_change`, `amplitude_change`, `loose_change`: the value at the second
+    orbit of the branch minus the value at the first.
 
-    `amplitude` and `loose` are complex, both with the amplitude of the first harmonic of Z1 as the
-    modulus. The phase of `amplitude` is the phase of Z1 relative to Z2. The phase of `loose` is the
+    `amplitude` and `loose` are complex. The modulus of each is the amplitude of the first harmonic
+    of Z1. The phase of `amplitude` is the phase of Z1 relative to Z2. The phase of `loose` is the
     phase of Z1 relative to the displacement of the loose mass, Z1 - Z2.
     """
     number = branches.orbit_branch.values
@@ -187,10 +188,7 @@ def high_counterparts(design, branches, free) -> pd.DataFrame:
 
 
 def subharmonic(free):
-    """Return the pieces of the branch of one-third subharmonics without damper, or raise Missing.
-
-    Of several branches, the branch with the widest frequency range is taken.
-    """
+    """Return the pieces of that branch of free one-third subharmonics which is widest in W."""
     part = pieces(free)
     third = part[(part.period == 3) & (part.asymmetry < SYMMETRIC)]
     if third.empty:

@@ -25,7 +25,7 @@ ORDER = count("order of the series", least=6, most=60)
 
 
 class ContactCells(Section):
-    """How many cells the map has along restitution and along load."""
+    """Numbers of cells in the map of contacts, one key for each axis."""
 
     restitutions: points_of("cells of the map along restitution")
     loads: points_of("cells of the map along load")
@@ -77,7 +77,7 @@ class ContactModel(
 
 
 class RigidCells(Section):
-    """How many cells the map has along frequency and along contact stiffness."""
+    """Numbers of cells in the map of errors for rigid walls, one key for each axis."""
 
     frequencies: points_of("cells of the map along frequency")
     stiffnesses: points_of("cells of the map along contact stiffness")

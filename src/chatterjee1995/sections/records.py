@@ -65,6 +65,6 @@ class Kind(Shown):
 
     room = "figures"
     most: int = 6  # largest number of entries in a figure
-    # Whether the curves to draw must have a damper (True) or none (False). If True, a figure that
-    # reads `branches` also draws the branches of the same oscillators without a damper.
+    # True: the curves must have a damper. A figure of the stage `branches` then also shows orbits
+    # of the curves' oscillators without a damper. False: the curves must have no damper.
     damper: bool = True

@@ -31,9 +31,9 @@ def job(config, stage, name) -> dict:
 
 
 def read_by(config, stage, name) -> dict:
-    """Return a dict: argument of the function of `stage` -> stages whose datasets it contains.
+    """Return the stages whose datasets of the entry `name` are read by the stage `stage`.
 
-    Only stages that compute a dataset of the entry `name` are listed.
+    The result is a dict: name of an argument that receives datasets -> names of their stages.
     """
     return {
         key: [each for each in stages if name in entries(config, each)]
@@ -123,7 +123,6 @@ def chapter_modules(config, chapter) -> list:
 
 
 def _case(config, section, name):
-    """Return the parameters of an entry as texts; an empty list for a schematic or a machine."""
     if section in (None, "machines"):
         return []
     entry = getattr(config, section)[name]

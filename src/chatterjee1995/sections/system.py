@@ -102,10 +102,11 @@ class Oscillators(keys_of(OSCILLATOR, needed=("damping", "linear_frequency"))):
 
 
 class WithOscillator(Section):
-    """An entry with an oscillator. The product of its values at the keys `counts` has a bound."""
+    """An entry with an oscillator."""
 
     oscillator: text("name of an entry of `oscillators`")
 
+    # Keys of numbers or lists. The product of the numbers and lengths must not exceed MOST_RUNS.
     counts: ClassVar = ()
 
     def contradictions(self, path, config):
@@ -128,8 +129,9 @@ class WithDamper(keys_of(DAMPER, needed=NEEDED, without=[COMMON]), WithOscillato
 
 
 class MaybeWithDamper(keys_of(DAMPER, without=[COMMON]), WithOscillator):
-    """An entry with an oscillator. With a damper it has all parameters in `whole`, else none."""
+    """An entry with an oscillator, and with or without a damper."""
 
+    # Keys of the damper. An entry must give all of these keys or none of them.
     whole: ClassVar = NEEDED
 
     def contradictions(self, path, config):
@@ -141,7 +143,7 @@ class MaybeWithDamper(keys_of(DAMPER, without=[COMMON]), WithOscillator):
                 yield missing((*path, key), reason)
 
     def has_damper(self) -> bool:
-        """Return whether the entry has a damper, that is, gives a parameter in `whole`."""
+        """Return whether the entry gives the parameters of a damper."""
         return bool(given(self, self.whole))
 
     def system(self, config) -> dict:
@@ -160,7 +162,7 @@ def damper_values(entry, config) -> dict:
 
 
 def too_many(path, section, keys):
-    """Yield an error line if the number of runs is too large: the product of values at `keys`."""
+    """Yield an error line if the product of the numbers at `keys` is larger than MOST_RUNS."""
     counts = []
     for key in keys:
         value = section

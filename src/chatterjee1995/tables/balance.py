@@ -83,7 +83,7 @@ def harmonic_convergence(datasets) -> pd.DataFrame:
 
 
 def _convergence(data):
-    """Return the row of a motion. A cold start begins Newton's method with a single harmonic."""
+    # A cold start begins Newton's method from the solution with one harmonic.
     highest, cold = data["highest_harmonic"].values, decode(data["cold_status"]).values
     error = data["series_error"].sel(error_measure="maximum").values
     decay = data.sel(error_measure="maximum")
@@ -115,7 +115,7 @@ def _convergence(data):
 
 
 def _needed(highest, error, accuracy):
-    """Return the highest harmonic needed for an error of at most `accuracy`, or NaN."""
+    """Return the number of harmonics from which on the error is at most `accuracy`, else NaN."""
     above = np.flatnonzero(~(error <= accuracy))
     first = above[-1] + 1 if len(above) else 0
     return highest[first] if first < len(highest) else np.nan

@@ -65,8 +65,7 @@ def _ends_of(data, branch):
 
 
 def _stable_ranges(value, stable, *, closed):
-    """Return the frequency ranges of stable orbits on a branch as text, such as "1.2 to 1.5"."""
-    if closed:  # begin at an unstable orbit, so that no stable range is divided
+    if closed:  # begin a closed branch at an unstable orbit, so that no stable range is divided
         cut = np.argmin(stable)
         value, stable = np.roll(value, -cut), np.roll(stable, -cut)
     parts = [value[first:last] for first, last in runs_of_true(stable)]
@@ -75,7 +74,10 @@ def _stable_ranges(value, stable, *, closed):
 
 
 def bifurcations(datasets) -> pd.DataFrame:
-    """Return a table of bifurcations, and of changes of contacts, close to stable orbits."""
+    """Return a table of bifurcations, and of orbits at which contacts appear, vanish or merge.
+
+    An event is listed if the orbit there, or a neighbouring orbit of the branch, is stable.
+    """
     rows = []
     for name, data in _branches(datasets):
         for k in np.flatnonzero(_next_to_stable(data)):
@@ -101,7 +103,6 @@ def bifurcations(datasets) -> pd.DataFrame:
 
 
 def _next_to_stable(data):
-    """Return a mask of the events on branches that lie at a stable orbit or next to one."""
     found = np.zeros(data.sizes["event"], bool)
     for branch in range(data.sizes["branch"]):
         points = np.flatnonzero(data["orbit_branch"].values == branch)

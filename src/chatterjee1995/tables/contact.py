@@ -21,7 +21,7 @@ def contact_model(datasets) -> pd.DataFrame:
     """Return a table of given and realised restitution, for two rules that end a contact.
 
     By the first rule a contact ends at zero depth, by the second rule at zero force. Further
-    columns count the cells of a map over restitution and load, by the error of the restitution.
+    columns count map cells with small errors of the restitution, and with large errors.
     """
     rows = []
     for name, data in datasets.get("contact_model", {}).items():
@@ -91,7 +91,6 @@ VERDICTS = {
 
 
 def _needed(own):
-    """Return for each allowed error of max |Z1| the r1 above which walls may be taken as rigid."""
     columns = {}
     for k, level in enumerate(own.threshold.values):
         value = float(own.needed_stiffness[k])

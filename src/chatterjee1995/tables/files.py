@@ -1,4 +1,4 @@
-"""Functions that write tables as CSV and as Markdown files, and columns of several tables."""
+"""Functions that write tables to files, and a function that makes columns of parameters."""
 
 import numbers
 import re

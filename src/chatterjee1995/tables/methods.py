@@ -100,7 +100,7 @@ def _averages(data, of):
 
 
 def missed_contacts(datasets) -> pd.DataFrame:
-    """Return a table of integrators: how many contacts near grazing each one finds and misses."""
+    """Return a table: how many shallow contacts an integrator finds, and how many it misses."""
     rows = []
     for name, data in datasets.get("missed_contacts", {}).items():
         contacts = int(reading.parameter(data, "passages")) * data.sizes["depth"]

@@ -14,7 +14,7 @@ KINDS = {number: kind for kind, number in DAMPED_MOTION.items()}
 
 
 def migration(datasets) -> pd.DataFrame:
-    """Return a table: share of releases that lead to a free motion, and cycles of control runs."""
+    """Return a table: which share of releases leads to each free motion, and times of migration."""
     rows = []
     for name, case in datasets.get("migration", {}).items():
         reached = case.trial_outcome == flag("trial_outcome", "reached")
@@ -130,7 +130,6 @@ def _rule(one):
 
 
 def _with_interval(value):
-    """Return a value and its confidence interval as text, such as "0.9 (0.85 to 0.94)"."""
     middle, lower, upper = (
         f"{float(value.sel(bound=bound)):.3g}".replace("inf", "∞")
         for bound in ("share", "lower", "upper")

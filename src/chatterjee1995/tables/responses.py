@@ -83,7 +83,7 @@ def quasi_periodic(datasets) -> pd.DataFrame:
 
 
 def chaos(datasets) -> pd.DataFrame:
-    """Return a table of violent chaotic motions, with the mean life of chaos in cycles."""
+    """Return a table of violent chaotic motions and the mean number of cycles until chaos ends."""
     rows = []
     for name, data in reading.damped(datasets, "response").items():
         try:
