@@ -248,20 +248,20 @@ def advance(parameters, states, sides, starts, ends, tolerance, contacts, larges
     receives the largest |Z1| of each trajectory, or infinity after an escape.
     """
     size = min(len(states), RESIDENT)
-    pool = make_pool(size)
-    chosen, arrived = np.empty(LANES, np.int64), np.empty(LANES, np.int64)
-    taken = np.zeros(size, np.int64)
-    following = size
-    for m in range(size):
-        taken[m] = m
-        enter(pool, m, parameters[m], states[m], sides[m], tolerance)
-        if largest is not None:
-            pool.largest[m] = abs(states[m, 0])
-        send(pool, m, starts[m], ends[m], False)
-    left = len(states)
+    pool, taken = make_pool(size), np.zeros(size, np.int64)
+    chosen, vacant = np.empty(LANES, np.int64), np.arange(max(size, LANES))
+    begun, left, count = 0, len(states), size
     while left > 0:
-        for j in range(advance_some(pool, chosen, arrived)):
-            m = arrived[j]
+        for m in vacant[:count]:
+            if begun < len(states):
+                taken[m] = i = begun
+                begun += 1
+                enter(pool, m, parameters[i], states[i], sides[i], tolerance)
+                if largest is not None:
+                    pool.largest[m] = abs(states[i, 0])
+                send(pool, m, starts[i], ends[i], False)
+        count = advance_some(pool, chosen, vacant)
+        for m in vacant[:count]:
             i = taken[m]
             for k in range(4):
                 states[i, k] = pool.numbers[m, STATE + k]
@@ -270,10 +270,3 @@ def advance(parameters, states, sides, starts, ends, tolerance, contacts, larges
             if largest is not None:
                 largest[i] = pool.largest[m]
             left -= 1
-            if following < len(states):
-                taken[m] = i = following
-                following += 1
-                enter(pool, m, parameters[i], states[i], sides[i], tolerance)
-                if largest is not None:
-                    pool.largest[m] = abs(states[i, 0])
-                send(pool, m, starts[i], ends[i], False)

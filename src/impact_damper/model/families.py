@@ -6,7 +6,7 @@ import numpy as np
 
 from impact_damper.model.arguments import read_span
 from impact_damper.model.bounds import FREQUENCY_RANGE, nearest, shown
-from impact_damper.model.packed import FORCE, UNBALANCE, pack
+from impact_damper.model.packed import FORCE, FREQUENCY, UNBALANCE, pack
 from impact_damper.model.parameters import Damper, Oscillator
 
 # Parameters that can vary along a branch, and their dataclasses. The frequency has no dataclass.
@@ -60,9 +60,13 @@ def family_of(oscillator, damper, frequency, parameter, span):
     """
     part = {None: None, Oscillator: oscillator, Damper: damper}[PARAMETERS[parameter]]
     value = frequency if part is None else getattr(part, parameter)
-    least, most = span
+    (least, most), given = span, pack(oscillator, damper, frequency)
 
     def pack_at(value):
+        if part is None and least < value < most:
+            p = given.copy()
+            p[FREQUENCY] = value
+            return p
         if part is None:
             return pack(oscillator, damper, value)
         changed = replace(part, **{parameter: value})

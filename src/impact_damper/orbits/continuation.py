@@ -150,17 +150,15 @@ class Problem:
 
     def rows(self, x, orbit):
         """Return the derivative of `Orbit.defects` by the unknowns, shape (m n, m n + 1)."""
-        return self._matrix(orbit, self._slopes(orbit, self.rate(x[-1])))
+        slopes = self._slopes(orbit, self.rate(x[-1]))
+        factors = orbit.factors[:, : self.size, : self.size]
+        return np.column_stack([segments.cyclic(factors), slopes.ravel()])
 
     def _slopes(self, orbit, rate):
         slopes = np.empty((len(orbit.states), self.size))
         given = orbit.p, rate, self.phases, orbit.states, orbit.ends, self.sign
         slopes_of_ends(*given, POLISH_TOLERANCE, slopes)
         return slopes
-
-    def _matrix(self, orbit, slopes):
-        n = self.size
-        return np.column_stack([segments.cyclic(orbit.factors[:, :n, :n]), slopes.ravel()])
 
     def correct(self, x, border, most=np.inf):
         """Return the point that Newton's method reaches from the unknowns x, or None if it fails.
@@ -194,7 +192,9 @@ class Problem:
         return None
 
     def _solved(self, orbit, slopes, row):
-        matrix, right = np.vstack([self._matrix(orbit, slopes), row]), np.zeros((len(row), 2))
+        matrix, right = np.empty((len(row), len(row))), np.zeros((len(row), 2))
+        matrix[:-1, :-1] = segments.cyclic(orbit.factors[:, : self.size, : self.size])
+        matrix[:-1, -1], matrix[-1] = slopes.ravel(), row
         right[:-1, 0], right[-1, 1] = -orbit.defects[:, : self.size].ravel(), 1.0
         most = np.array([orbit.residual, 1.0]) / SINGULAR**0.5
         with suppress(np.linalg.LinAlgError):

@@ -274,9 +274,9 @@ class Orbit:
 
 def integrate(p, periods, phases, states, sign=1) -> Orbit:
     """Integrate segments from their first `states`. The `Orbit` returned need not be periodic."""
-    ends, tangents = np.array(states, float), np.tile(np.eye(4), (len(states), 1, 1))
-    phases = np.asarray(phases, float)
+    states, phases = np.array(states, float), np.asarray(phases, float)
+    ends, tangents = states.copy(), np.empty((len(states), 4, 4))
     touching = flow_all(p, ends, tangents, phases / p[FREQUENCY], POLISH_TOLERANCE)
     factors = tangents.transpose(0, 2, 1).copy()
     factors[-1] *= sign
-    return Orbit(p, periods, phases, np.array(states, float), sign, ends, factors, touching)
+    return Orbit(p, periods, phases, states, sign, ends, factors, touching)

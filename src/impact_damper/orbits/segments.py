@@ -197,9 +197,14 @@ def list_turns(p, states, phases, tolerance, turns):
 
 @kernel
 def flow_all(p, states, tangents, times, tolerance):
-    """Integrate all segments, overwriting `states` and `tangents`. Return the time in contact."""
+    """Integrate all segments, overwriting `states`. Return the time in contact.
+
+    tangents[k], shape (4, 4), receives the transposed derivative of segment k.
+    """
     work, touching = workspace(), 0.0
     for k in range(len(states)):
+        for i in range(16):
+            tangents[k, i // 4, i % 4] = 1.0 if i % 5 == 0 else 0.0
         side = side_of(p, states[k])
         begin, end = times[k], times[k + 1]
         _, _, time = advance(p, states[k], tangents[k], side, begin, end, tolerance, work)
