@@ -18,7 +18,7 @@ FREQUENCY = 1.95
 def warm_up_orbits() -> None:
     """Call each kernel that processes one motion at a time."""
     # In this order, a parallel `warm_up_settling` rarely compiles the same kernel at the same time.
-    from impact_damper.motions import records, strobe_map, traces
+    from impact_damper.motions import legs, records, strobe_map, traces
 
     on, off = (pack(OSCILLATOR, damper, FREQUENCY) for damper in (DAMPER, None))
     strobe_map.polish(on, np.zeros(4), 1, 1e-3, 1e-9)
@@ -36,8 +36,6 @@ def warm_up_orbits() -> None:
     turns_of(orbit)
     problem = Problem.of(lambda value: np.append(value, on[1:]), orbit, symmetric=False)
     problem.correct(np.append(orbit.state, on[0]), np.eye(5)[-1])
-
-    from impact_damper.motions import legs
 
     records.measure_orbits(on[None], 1e-9, np.zeros(1, records.MOTION), np.zeros(1, bool))
     legs.leg(off, on, np.zeros(4), 0.0, 0.0, 0.0, 1e-9, 2)

@@ -63,12 +63,12 @@ def family_of(oscillator, damper, frequency, parameter, span):
     (least, most), given = span, pack(oscillator, damper, frequency)
 
     def pack_at(value):
-        if part is None and least < value < most:
+        if part is None:
+            if not least < value < most:
+                return pack(oscillator, damper, value)
             p = given.copy()
             p[FREQUENCY] = value
             return p
-        if part is None:
-            return pack(oscillator, damper, value)
         changed = replace(part, **{parameter: value})
         if part is oscillator:
             return pack(changed, damper, frequency)
