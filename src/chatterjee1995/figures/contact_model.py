@@ -12,7 +12,7 @@ from impact_damper.plot.maps import mesh
 RULES = {"zero_penetration": "exit at zero penetration", "no_tension": "exit without pull"}
 LEVELS = 0.01, 0.05  # errors with a contour line
 LINEAR = 1e-3  # the load axis is linear below this value and logarithmic above
-# Markers of contacts: first in motions with the least max |Z1|, then in motions with the largest.
+# First marker: contacts in motions with the least max |Z1|. Second: in motions with the largest.
 MOTIONS = (
     {"color": style.BLACK, "marker": "o", "markersize": 2.6, "markerfacecolor": "none"},
     {"color": style.VERMILION, "marker": "_", "markersize": 5.0, "markeredgewidth": 0.5},
@@ -21,7 +21,7 @@ MOTIONS = (
 
 @style.context()
 def draw_contact_model(*, contact_model):
-    """Draw two maps of the error of the restitution, one for each rule for the end of contacts."""
+    """Draw two maps of the error of the restitution, one for each rule that ends a contact."""
     drawn = style.figure("double", 4.0)
     panels = drawn.subplots(1, 2, sharex=True, sharey=True)
     data = contact_model[0]

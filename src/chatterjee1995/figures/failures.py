@@ -10,7 +10,7 @@ from impact_damper.plot.maps import edges_of
 
 COLUMNS = 3  # panels side by side
 LINEAR = "linear stability limit"
-# Words in the legend -> look of the line. "within" limits the relative error of max |Z1|.
+# Words in the legend -> look of a line. "within 1 %": relative error of max |Z1| up to 1 %.
 LINES = {
     "within 1 %": {"marker": "o", "markerfacecolor": style.WHITE, "linestyle": (0, (4, 2))},
     "within 10 %": {"marker": "s"},

@@ -36,10 +36,10 @@ def pieces(branches) -> pd.DataFrame:
 
     `lower`, `upper`: the lower and the higher frequency W of the two orbits.
     `fewest`, `contacts`: contacts per cycle in the orbit with fewer and in the orbit with more.
-    `restitution`: the least ratio of the speed after a contact to the speed before this contact.
+    `restitution`: the least (speed after a contact)/(speed before it) in both orbits.
     `frequency`, `size` (max |Z1|), `amplitude`, `loose`: means over the two orbits.
     `frequency_change`, `size_change`, `amplitude_change`, `loose_change`: the value at the second
-    orbit of the branch minus the value at the first.
+    of the two orbits minus the value at the first.
 
     `amplitude` and `loose` are complex. The modulus of each is the amplitude of the first harmonic
     of Z1. The phase of `amplitude` is the phase of Z1 relative to Z2. The phase of `loose` is the

@@ -102,7 +102,7 @@ class Oscillators(keys_of(OSCILLATOR, needed=("damping", "linear_frequency"))):
 
 
 class WithOscillator(Section):
-    """An entry with an oscillator."""
+    """An entry of the configuration that names an oscillator."""
 
     oscillator: text("name of an entry of `oscillators`")
 

@@ -62,7 +62,7 @@ def models(datasets) -> pd.DataFrame:
 
 
 def cheapest(data, labels):
-    """Return the index of the cheapest accurate run of the methods `labels`, or None."""
+    """Return the index of the accurate run with the least work by a method in `labels`, or None."""
     meets = decode(data["meets_accuracy"]).values == "yes"
     meets &= np.isin(data["method"].values, labels)
     work = np.where(meets, data["operations"].values, np.inf)

@@ -14,7 +14,7 @@ KINDS = {number: kind for kind, number in DAMPED_MOTION.items()}
 
 
 def migration(datasets) -> pd.DataFrame:
-    """Return a table: which share of releases leads to each free motion, and times of migration."""
+    """Return a table: the share of releases to each free motion, and how long migration takes."""
     rows = []
     for name, case in datasets.get("migration", {}).items():
         reached = case.trial_outcome == flag("trial_outcome", "reached")

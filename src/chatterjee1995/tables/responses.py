@@ -83,7 +83,7 @@ def quasi_periodic(datasets) -> pd.DataFrame:
 
 
 def chaos(datasets) -> pd.DataFrame:
-    """Return a table of violent chaotic motions and the mean number of cycles until chaos ends."""
+    """Return a table of violent chaotic motions: after how many cycles, on average, chaos ends."""
     rows = []
     for name, data in reading.damped(datasets, "response").items():
         try:
