@@ -2,8 +2,8 @@
 
 Without a damper the boundaries of basins are curves of states: the stable manifolds of unstable
 orbits. From a state on the stable manifold of an orbit the motion tends to this orbit. The curves
-are computed backwards in time, because errors then decrease. Two arrays limit |Z1| and |Z1'|:
-states of a curve are computed within the limits in `reach`, and stored within those in `window`.
+are computed backwards in time, because errors then decrease. `window` holds the largest |Z1| and
+|Z1'| of states that are stored, `reach` the largest |Z1| and |Z1'| of states that are computed.
 The names *convergence time*, *finite-time basin stability* and *minimal critical shock* come from
 Attractors.jl, version 2 (StabilityQuantifiersAccumulator).
 """
@@ -40,7 +40,8 @@ from impact_damper.orbits.shooting import find_orbit
 WIDTH = 1.5
 # Newton's method searches for unstable orbits from each state of a grid of NEWTON x NEWTON states.
 NEWTON = 16
-# At most 2 x TRIED states that reach no known attractor are used to search for further attractors.
+# If n states reach no known attractor, every k-th of these states is used to search for further
+# attractors, where k is the larger of n // TRIED and 1.
 TRIED = 64
 # Default positions Z2/d0 of the loose mass. Each state (Z1, Z1') is run once for each position.
 PLACES = (-0.8, -0.4, 0.0, 0.4, 0.8)
@@ -91,23 +92,24 @@ def basins(
     frequency : float
         Forcing frequency W, or Hz for a machine.
     displacement, velocity : float or (float, float), optional
-        Range of Z1 and of Z1'. A number is the half width of a range around 0, a pair is the least
-        and the greatest value. The default half widths are 1.5 times the largest displacement and
-        the largest speed of the motions without a damper.
+        Range of Z1 and of Z1', for a machine in m and m/s. A number is the half width of a range
+        around 0, a pair is the least and the greatest value. The default half widths are 1.5 times
+        the largest displacement and the largest speed of the motions without a damper.
     cells : int
         Number of states on each axis.
     phase : float
         Phase W T of the forcing at which the motions begin, radian.
     loose : sequence of float, optional
-        Z2 and Z2' of all states, only with a damper. By default each state is run five times, with
-        the loose mass at relative rest at five places in the gap. The result then also holds, for
-        each state, the share of these places from which the motion leads to each attractor.
+        Z2 and Z2' of all states (for a machine in m and m/s), only with a damper. By default each
+        state is run five times, with the loose mass at relative rest at five places in the gap. The
+        result then also holds, for each state and attractor, the share of places that lead to it.
     shock : float, optional
         Impulse on the primary mass: in N s for a machine, otherwise a dimensionless jump of Z1'. If
         a shock is given, the result includes the time in which motions return to an attractor.
     within : int
         Time limit of the finite-time basin stability, in forcing cycles.
     settling : Settling, optional
+        How long motions are run, and how accurately. The default is `Settling()`.
     workers : int
         Number of threads. The result does not depend on this number.
     progress : str, optional
@@ -121,15 +123,16 @@ def basins(
         For each attractor: the period, the largest displacement, Z1 and Z1' at `phase`, and
 
         - the share of states that lead to the attractor, and their median convergence time;
-        - with `shock`: the longest convergence time after +shock or -shock, infinite if a motion
-          does not return to the attractor;
+        - with `shock`: the longest convergence time after +shock and -shock, from each state of the
+          attractor at `phase`. It is infinite if a motion does not return;
         - the finite-time basin stability: the share of states from which motions reach the
           attractor in `within` cycles;
         - the minimal critical shock: the smallest impulse at `phase` after which the motion does
-          not return. Impulses up to a jump of Z1' by the largest speed in the plane are tried.
+          not return, or infinity. The largest impulse tried changes Z1' by the largest speed in the
+          plane.
 
-        Without a damper also: unstable orbits with the period of an attractor, and the stable
-        manifolds of these orbits, which are the boundaries of basins.
+        Without a damper also: unstable orbits with the period of an attractor, and the boundaries
+        of basins. A boundary is the stable manifold of an unstable orbit.
 
     Raises
     ------
@@ -286,13 +289,14 @@ def _attractor_data(p, found, phase):
 
 # Distance from a saddle (an unstable orbit) to the first computed state of its stable manifold.
 NEAR = 1e-5
-# A stable manifold is computed on each side of its saddle, cycle by cycle backwards in time. This
-# ends after MOST_PERIODS forcing cycles, or with more than MOST_POINTS states in `window` or
-# MOST_IN_ALL in `reach`. In each cycle, new states are inserted at most MOST_HALVINGS times between
-# neighbouring states that are too far apart.
+# A stable manifold is computed on each side of its saddle from FIRST_POINTS states. They are
+# followed backwards in time over at most MOST_PERIODS forcing cycles. In each cycle, new states are
+# inserted at most MOST_HALVINGS times between neighbouring states that are too far apart. The
+# computation ends with more than MOST_POINTS states in `window` or MOST_IN_ALL in `reach`.
 MOST_PERIODS, MOST_POINTS, MOST_IN_ALL, MOST_HALVINGS = 60, 40_000, 100_000, 12
 FIRST_POINTS = 33
-# Largest distance between neighbouring states of a manifold outside `window`, divided by `reach`.
+# Neighbouring states of a manifold differ by at most `spacing` in Z1 and Z1' (`spacing` is the size
+# of a cell of the plane), but outside `window` by at most OUTSIDE x `reach`.
 OUTSIDE = 0.01
 # Two orbits are the same if their states differ by less than SAME.
 SAME = 1e-6
@@ -301,7 +305,7 @@ CHUNK = 4096
 
 
 def saddles(p, states, periods, phase):
-    """Return saddles (unstable orbits) of all `periods` found by Newton's method from `states`."""
+    """Return saddles (unstable orbits). Newton's method tries each period from each state."""
     orbits, known = [], np.empty((0, 2))
     for n in sorted(set(periods)):
         for state in states:
@@ -317,7 +321,7 @@ def saddles(p, states, periods, phase):
 
 
 def run_backwards(p, states, phase, tolerance, reach):
-    """Return the states one forcing cycle before `states`; NaN for states beyond limits `reach`."""
+    """Return the states one forcing cycle before `states`. A state beyond `reach` gives NaN."""
     reverse = p.copy()
     reverse[DAMPING] = -p[DAMPING]
     begin, period = -phase / p[FREQUENCY], 2 * math.pi / p[FREQUENCY]
@@ -377,7 +381,6 @@ def _grow(orbit, direction, growth, tolerance, window, spacing, reach):
 
 
 def _wide(states, window, spacing, reach):
-    """Return a mask: whether each of `states` is too far from the next one in `states`."""
     apart = np.abs(np.diff(states, axis=0))
     inside = np.all(np.abs(states) <= window + 2 * spacing, axis=1)
     near = np.all(np.abs(states) <= reach, axis=1)
@@ -393,7 +396,11 @@ SHOCKS = (256, 64, 64, 64)
 
 
 def robustness(p, found, phase, widest, shock, within) -> dict:
-    """Return the dataset variables for attractors' convergence times and shocks (jumps of Z1')."""
+    """Return four dataset variables for each attractor. A shock is a jump of Z1'.
+
+    They are: the median convergence time; the share of states with a convergence time up to
+    `within`; the minimal critical shock, at most `widest`; and the convergence time after `shock`.
+    """
     rows = []
     for index, record in enumerate(found.records):
         own, states, returned = found.labels == index, orbit_states(p, record, phase), np.nan
@@ -409,10 +416,7 @@ def robustness(p, found, phase, widest, shock, within) -> dict:
 
 
 def _after(found, index, states, shocks):
-    """Return for each shock whether any motion leaves its attractor, and a convergence time.
-
-    The motions begin at `states` of the attractor. The time is their longest convergence time.
-    """
+    """Return for each shock whether a motion fails to return, and the longest convergence time."""
     pushed = np.repeat(states, len(shocks), axis=0)
     pushed[:, 1::2] += np.tile(shocks, len(states))[:, None]
     labels, periods = (each.reshape(len(states), -1) for each in found.label(pushed))
@@ -420,7 +424,6 @@ def _after(found, index, states, shocks):
 
 
 def _critical(found, index, states, most):
-    """Return the least |shock| from 0 to `most` that drives a motion off its attractor, or inf."""
     low, high = 0.0, most
     for parts in SHOCKS:
         shocks = np.linspace(low, high, parts + 1)

@@ -109,7 +109,6 @@ def bifurcations_between(point_at, start, end, first, last):
 
 def events_between(start, end, length):
     """Return the events on the step from `start` to `end`, and how many were not located."""
-
     known = {0.0: start, length: end}
 
     def point_at(distance):

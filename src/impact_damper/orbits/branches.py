@@ -15,8 +15,8 @@ from impact_damper.orbits.segments import NUDGE
 MOST_POINTS = 10_000
 # Two orbits are the same if their states at W T = pi/2 differ by less than SAME.
 SAME = 1e-5
-# `Branch.holds(orbit)` searches a step of the branch only if max |Z1| of `orbit` and max |Z1| where
-# the step begins differ by at most NEARBY plus the change of max |Z1| along the step.
+# `Branch.holds` searches for an orbit on a step only if the step has a similar max |Z1|. From the
+# orbit to the step's first point, max |Z1| may differ by NEARBY plus its change along the step.
 NEARBY = 0.02
 # `Branch.family` is extrapolated to parameters at most this far outside the range of the branch.
 EXTENDED = 1e-3
@@ -26,8 +26,8 @@ WEAK = 0.02
 # VANISHED times its value at the point before the fold.
 VANISHED = 0.5
 # A grazing is searched for if the sequence of contacts changes on a step, or if a step shorter than
-# CLOSE_STEP fails. The search reaches as far as REACH times the length of the step. If it finds no
-# grazing and the sequence of contacts changes, a step longer than CLOSE_STEP is halved.
+# CLOSE_STEP fails. The search reaches as far as REACH times the length of the step. If no grazing
+# is found although the sequence changes, the step is halved, unless it is shorter than CLOSE_STEP.
 CLOSE_STEP, REACH = 2e-3, 8.0
 # A step longer than CLEAR_STEP is halved if it may contain two folds, or if an event on the step
 # was not located.
@@ -38,8 +38,8 @@ CLEAR_STEP = 1e-4
 class Branch:
     """A branch of orbits. `family(value)` is the array `p` of all parameters for a point's `value`.
 
-    `events` holds pairs: the index of a point, and the event there. `lost` is the number of events
-    that were not located. `ends` says why the branch ends at its first and at its last point:
+    `events` holds pairs: the index in `points` of the event's point, and the event. `lost` is how
+    many events were not located. `ends` says why the branch ends at its first and last point:
 
     range_ends: The parameter is at the end of its range. closed: The branch is a closed curve.
     symmetry_breaking: The branch meets a branch of symmetric orbits. period_doubling: The branch
@@ -81,7 +81,7 @@ class Branch:
 
 
 def between(point, ahead, value):
-    """Return the point from `point` to `ahead` with the parameter `value`, or None if not found."""
+    """Return the point with the parameter `value` between `point` and `ahead`, or None."""
     if np.array_equal(point.problem.phases, ahead.problem.phases):
         return continuation.point_at_value(point, ahead, value)
     return point.problem.at_value(point, value)
@@ -90,8 +90,8 @@ def between(point, ahead, value):
 def follow_branch(family, orbit, value, span, beyond=np.inf) -> Branch:
     """Follow the branch of an orbit to smaller and to larger parameters, within `span`.
 
-    `value` is the orbit's parameter. `family(value)` returns the array `p` of all parameters. The
-    branch ends in each direction at the latest after more than `beyond` unstable orbits in a row.
+    `value` is the orbit's parameter. `family(value)` returns the array `p` of all parameters. In
+    each direction the branch ends as soon as more than `beyond` orbits in a row are unstable.
     """
     family = _extended(family, span)
     problem = continuation.Problem.of(family, orbit)
@@ -115,8 +115,6 @@ def follow_branch(family, orbit, value, span, beyond=np.inf) -> Branch:
 
 
 def _extended(family, span):
-    """Return a function equal to `family` that also accepts parameters just outside `span`."""
-
     def extended(value):
         try:
             return family(value)
@@ -214,7 +212,7 @@ def _ending(piece, first, span):
 
     1. The kind of the end, as in `Branch.ends`, or "" if the branch does not end on this piece.
     2. The events on the piece. If the branch ends on it, only the events up to the end.
-    3. Whether the event at which the branch ends was not located.
+    3. True if the branch ends at an event that was not located and is not counted in the piece.
 
     `first` is the branch's first point, or None if the branch has too few points to be closed.
     """
@@ -235,7 +233,7 @@ def _ending(piece, first, span):
 
 
 def _through_grazing(point, reach):
-    """Return a branch through its next grazing as a list of pieces.
+    """Follow a branch from `point` to shortly beyond the next grazing. Return a list of pieces.
 
     A piece is a tuple: a point, the next point, the events between these two points, and the number
     of events that were not located. Return [] if there is no grazing within `reach` from `point`.
@@ -258,8 +256,9 @@ def _through_grazing(point, reach):
 def _meeting(events, orbit):
     """Return the index of the event at which a branch meets a more symmetric branch, or None.
 
-    The event is a fold at which `Orbit.deviation` is much smaller than for `orbit`. Return None if
-    `events` has other folds only. Return len(events) if it has no fold: then none was located.
+    The event is a fold at which `Orbit.deviation` is much smaller than for `orbit`. If there are
+    folds, but no such fold, return None. If there is no fold in `events`, the fold at the meeting
+    was not located. Then return len(events).
     """
     folds = [k for k, event in enumerate(events) if event.kind == "fold"]
     least = VANISHED * np.max(np.abs(orbit.deviation))
@@ -270,7 +269,6 @@ def _meeting(events, orbit):
 
 
 def _passes(point, ahead, first):
-    """Return the point between `point` and `ahead` whose orbit is `first.orbit`, or None."""
     forward = (ahead.value - point.value) * first.tangent[-1] > 0
     if not forward or (point.value - first.value) * (ahead.value - first.value) > 0:
         return None

@@ -67,11 +67,12 @@ def clearance_sweep(
         max |Z1| of the quiet orbit (period 1, symmetric, two contacts; absent with gravity,
         because no motion is symmetric then), the largest |Z1| of all motions to which starts lead,
         and the amplitude of the smallest stable solution of (7). Scalars: the clearance of the
-        smallest quiet orbit (the optimum); whether this minimum is smooth, a kink, or an end of the
-        branch or of the sweep; the optimum by (7); the clearances by rules (18) and (19), NaN for
-        (19) without a resonance peak; rm W^2 d0/f at the optimum, with f = F + U W^2, and by the
-        theory of straight flight. For each `edge`, lower and upper: the end of the range of
-        clearances in which max |Z1| of the quiet orbit exceeds its minimum by at most 10 %.
+        smallest quiet orbit (the optimum); the kind of this minimum, which is smooth, a kink, an
+        end of the branch, or an end of the sweep; the optimum by (7); the clearances by rules (18)
+        and (19), NaN for (19) without a resonance peak; rm W^2 d0/f, with f = F + U W^2, at the
+        optimum; the ratio rm W^2 d0/f at which max |Z1| is smallest by the theory of straight
+        flight. For each `edge`, lower and upper: the end of the range of clearances in which max
+        |Z1| of the quiet orbit exceeds its minimum by at most 10 %.
 
     Raises
     ------
@@ -154,9 +155,9 @@ def _peak_rule(oscillator, mass_ratio):
 def _quiet_motions(data, clearances, rule):
     """Return for each clearance the state and max |Z1| of the quiet orbit. Also return an index.
 
-    Of all clearances with a quiet orbit, the index selects the one closest to `rule`. It is None if
-    there is no quiet orbit. Quiet orbits on other branches than the quiet orbit at this clearance
-    are ignored. At a clearance without a quiet orbit max |Z1| is NaN.
+    The index selects, of all clearances with a quiet orbit, the one closest to `rule`. It is None
+    if there is no quiet orbit. The smallest quiet orbit there lies on one branch, and quiet orbits
+    on any other branch are ignored. At a clearance without a quiet orbit max |Z1| is NaN.
     """
     names = "outcome period contacts asymmetry maximum_displacement branch state"
     table = {name: data[name][1] for name in names.split()}
@@ -252,14 +253,13 @@ def _stationary(size_at, best):
 
 
 def _kind(size_at, best, least, longest):
-    """Return "smooth" if max |Z1| rises with the squared distance from `best`, otherwise "kink"."""
+    # At half the distance from `best`, the rise is a quarter for a smooth minimum, half for a kink.
     steps = longest, longest / 2
     rises = [size_at(best + step) + size_at(best - step) - 2 * least for step in steps]
     return "kink" if rises[1] > 0.36 * rises[0] else "smooth"
 
 
 def _near(values, sizes, size_at, best, least):
-    """Return the clearance towards values[-1] up to which max |Z1| <= NEAR_MINIMUM x `least`."""
     level = NEAR_MINIMUM * least
     inside = best
     for value, size in zip(values, sizes, strict=True):

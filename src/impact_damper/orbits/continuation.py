@@ -254,10 +254,7 @@ def point_at_value(point, ahead, value):
 
 
 def _cubic(point, ahead, fraction):
-    """Return the unknowns at a place on the cubic curve that touches a branch at two points.
-
-    The place is given by `fraction`, which rises from 0 at `point` to 1 at `ahead`.
-    """
+    """Return unknowns on a cubic curve from `point`, fraction 0, to `ahead`, fraction 1."""
     row = point.problem.metric * point.tangent
     chord = ahead.x - point.x
     length = row @ chord

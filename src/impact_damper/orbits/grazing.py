@@ -24,7 +24,7 @@ RATIO, LEAST, MOST = 10.0, 1e-13, 2e-5
 HALVINGS, HALVINGS_BETWEEN = 8, 3
 # A step led to a more symmetric branch if max |`Orbit.deviation`| fell to FALLEN x its old value.
 FALLEN = 0.01
-# Distances of the extremum from the wall at the points on the side with fewer contacts.
+# If contacts vanish in a grazing, two points beyond it have the extremum this far from the wall.
 BESIDE = 1e-9, 2e-5
 # Newton's method fails if it must change an unknown by LARGEST or more. It has converged only if
 # the error of the height is below CLOSE x |height| + ROUNDING.
@@ -32,10 +32,10 @@ LARGEST, CLOSE, ROUNDING = 0.5, 1e-4, 1e-14
 
 
 def at_height(problem, x, turn, height, direction):
-    """Find the point near the unknowns x at which the extremum `turn` of Z2 has `height`.
+    """Find a point near the unknowns x. On its orbit the extremum of Z2 near `turn` has `height`.
 
-    Return the point and the extremum there, or None if Newton's method fails. Along the tangent of
-    the point, heights rise if `direction` is 1, and fall if it is -1.
+    Return the point and the extremum, or None if Newton's method fails. Along the tangent of the
+    point, heights rise if `direction` is 1, and fall if it is -1.
     """
     x = x.copy()
     for _ in range(NEWTON):
@@ -64,8 +64,8 @@ class Passage(NamedTuple):
     """Points of a branch through a grazing.
 
     `heights` and `turns` hold for each point the height |Z2| - d0 of the extremum that grazes, and
-    this extremum. Of the points with more contacts, `grazing` is the index of the one closest to
-    the grazing. `kind` is "grazing" or "merging", as in `bifurcations.Event`.
+    this extremum. Orbits have more contacts on one side of the grazing. On this side
+    points[grazing] is the point closest to the grazing. `kind` is as in `bifurcations.Event`.
     """
 
     points: list
@@ -75,7 +75,7 @@ class Passage(NamedTuple):
     kind: str
 
     def between(self, k):
-        """Return a function that finds the point with a given height between points k and k + 1."""
+        """Return a function that finds the point at a height from heights[k] to heights[k + 1]."""
         known = [(self.heights[end], self.points[end], self.turns[end]) for end in (k, k + 1)]
         direction = np.sign(self.heights[k + 1] - self.heights[k])
 
@@ -100,7 +100,7 @@ def guess(point, turn, height):
 
 
 def through_grazing(point, reach):
-    """Return the `Passage` from `point` through the next grazing, None if it is beyond `reach`."""
+    """Return the `Passage` through the next grazing, at most `reach` ahead of `point`, or None."""
     turn = next_grazing(point, reach)
     if turn is None:
         return None
@@ -125,7 +125,7 @@ def through_grazing(point, reach):
 
 
 def _along(point, turn, targets, direction, contacts):
-    """Compute points at the heights `targets`, until one fails. Return points, heights, extrema."""
+    """Return points, heights and extrema at the heights `targets`, until a point is not found."""
     points, heights, turns = [point], [turn.height], [turn]
     pending, halvings = targets[::-1], 0
     while pending and halvings <= HALVINGS:
@@ -154,7 +154,7 @@ def _before(height, target):
 
 
 def _targets(height, sharp, direction):
-    """Return heights for points. Orbits with heights of the sign `sharp` have more contacts."""
+    """Return the heights at which points are computed, in the order along the branch."""
     fine = LEAST * RATIO ** np.arange(1 + int(np.log(MOST / LEAST) / np.log(RATIO)))
     if direction == sharp:
         return list(sharp * fine)

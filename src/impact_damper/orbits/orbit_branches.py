@@ -98,14 +98,15 @@ def orbit_branches(
     """Follow branches of periodic orbits, stable or not, over a parameter.
 
     With a frequency and a state, the function follows the branch of the orbit near the state. With
-    `motions`, it follows over the frequency every branch through a settled motion, and in addition
+    `motions`, it follows over the frequency every branch through a settled motion. It then follows
+    further branches in these cases:
 
-    - on a branch of period 1 or 3: the new branch that begins at a loss of symmetry, and the new
-      branch that begins at a period doubling with a stable orbit beside it;
-    - on a branch of another period: the new branch that begins at either event with a stable orbit
-      beside it, if the new branch has a period up to 9 and begins with stable orbits;
-    - where a branch of a period up to 4 ends at a branch of symmetric orbits or of half the period:
-      this second branch.
+    - A branch of period 1 or 3 loses its symmetry, or doubles its period next to stable orbits. The
+      new branch is followed.
+    - A branch of another period loses its symmetry, or doubles its period, next to stable orbits.
+      The new branch is followed if it begins with stable orbits and has a period up to 9.
+    - A branch with a period up to 4 ends on a branch of symmetric orbits, or on a branch of half
+      the period. The branch on which it ends is followed.
 
     With `motions`, a branch of period n > 1 ends after more than 300/n unstable orbits in a row.
 
@@ -132,15 +133,15 @@ def orbit_branches(
     -------
     xarray.Dataset
         For each `point`, in order along the branches, an orbit: the parameter, the largest
-        displacement, stability, Floquet multipliers, contacts, the state and its phase, the
-        residual, and the relative error of the monodromy matrix's determinant. `orbit_status` says
-        how reliable the orbit is. For each `event`: its kind, which is fold, symmetry breaking (a
-        loss of symmetry), period doubling, Neimark-Sacker point, grazing (a contact appears or
-        vanishes in flight) or merging (two contacts with one wall become one, or the reverse). For
-        each (branch, edge): the reason why the branch ends at this edge (its first or last point).
-        With `motions`: `seeds`, the number of settled motions (with a damper only motions with
-        contacts), and `seeds_lost`, the number of seeds near which no orbit of the seed's period
-        was found. A branch and its mirror image count as one branch.
+        displacement, stability, Floquet multipliers, contacts, the state and its phase, the error
+        with which the orbit closes (residual), and the relative error of the determinant of the
+        monodromy matrix. `orbit_status` says how reliable the orbit is. For each `event`: its kind,
+        which is fold, symmetry breaking (a loss of symmetry), period doubling, Neimark-Sacker
+        point, grazing (a contact appears or vanishes in flight) or merging (two contacts with one
+        wall become one, or the reverse). For each branch: the reason why it ends at each edge, its
+        first and its last point. With `motions`: `seeds`, the number of settled motions (with a
+        damper only motions with contacts), and `seeds_lost`, the number of seeds near which no
+        orbit of the seed's period was found. A branch and its mirror image count as one branch.
 
     Raises
     ------
@@ -186,7 +187,6 @@ def _all_branches(system, damper, span, motions, progress):
     span = read_span(model.scales, "span", span, "frequency", **bounds.FREQUENCY_RANGE)
     if not isinstance(motions, list) or not all(isinstance(each, xr.Dataset) for each in motions):
         raise TypeError(f"motions = {bounds.shown(motions)}: must be a list of datasets of motions")
-
     motions = [from_si(each, model.scales) for each in motions]
     family, _, _ = family_of(model.oscillator, damper, span[0], "frequency", span)
 
@@ -278,7 +278,7 @@ def orbit_variables(pairs):
 
 
 def branches_dataset(branches, back, parameters, title, model=None, more=None):
-    """Return a dataset of branches. `back(Point.value)` is the parameter stored in the dataset."""
+    """Return a dataset of branches and variables `more`. Parameters are stored as back(value)."""
     points = [(back(point.value), point.orbit) for branch in branches for point in branch.points]
     sizes = [len(branch.points) for branch in branches]
     events = [(number, *pair) for number, branch in enumerate(branches) for pair in branch.events]

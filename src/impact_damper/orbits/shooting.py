@@ -8,7 +8,7 @@ from impact_damper.motions.strobe_map import STROBE
 from impact_damper.orbits import segments
 from impact_damper.orbits.orbit import TURN, Orbit, integrate
 
-# Newton's method stops after ITERATIONS corrections, or before a state changes by FAR or more.
+# Newton's method stops after ITERATIONS corrections, or before a single correction of FAR or more.
 ITERATIONS, FAR = 20, 10.0
 # The first phase of an approximate orbit is changed only if the orbit's residual is below NEAR.
 NEAR = 1e-6
@@ -22,7 +22,7 @@ CUTS, ROUGH = 4, 4.0
 def shoot(p, state, periods, phase, *, symmetric=False) -> Orbit:
     """Integrate a state over `periods` forcing cycles. Return an `Orbit` with a single segment.
 
-    It need not be periodic. If `symmetric`, only half of `periods`, an odd number, is integrated.
+    It need not be periodic. If `symmetric`, only half of this time is integrated.
     """
     cycle = periods * TURN * (0.5 if symmetric else 1.0)
     return integrate(p, periods, (phase, phase + cycle), [state], -1 if symmetric else 1)

@@ -19,10 +19,11 @@ from impact_damper.orbits.shooting import shoot
 # A first guess for a point of the new branch lies at each of DISTANCES from the bifurcation. The
 # point found must be at most ASIDE times this distance away from the first guess.
 DISTANCES, ASIDE = (2e-2, 4e-3, 8e-4, 1e-4, 1e-5), 0.5
-# If no point is found, a grazing may be near. Then points are sought at which |Z2| - d0 in an
-# extremum of Z2 is 1 + s times its value at the bifurcation, for each s in SHARES. First guesses
-# lie within REACH of the bifurcation. A point found may be nearer or farther than its first guess
-# by the fraction MISSED. At most PASSAGES points are followed through the grazing.
+# If no point is found, a grazing may be near. Then an extremum of Z2 is selected. Its height is
+# |Z2| - d0. For each s in SHARES a point is sought at which the height has changed by s times the
+# height at the bifurcation. The first guess must lie within REACH of the bifurcation. MISSED bounds
+# the relative difference of two distances from the bifurcation: of the point found, and of the
+# first guess. At most PASSAGES points are followed through the grazing.
 SHARES, MISSED, REACH, PASSAGES = (0.5, 0.2, 0.1, 0.05, 0.02), 0.5, 1e-3, 2
 # Kinds of events at which another branch begins.
 LEAVING = ("symmetry_breaking", "period_doubling")
@@ -55,11 +56,11 @@ def other_branch(event, *, stable=False) -> Point | None:
 
 
 def _leaving(event):
-    """Return the `Problem`, first unknowns x and direction of the branch that begins at `event`."""
+    """Return for the branch that begins at `event`: `Problem`, unknowns x and direction there."""
     point, problem = event.point, event.point.problem
     doubled = event.kind == "period_doubling"
-    # One `problem.cycle` later the state is multiplied by `sign`, and a small deviation from it
-    # in the direction of the new branch is multiplied by -`sign`.
+    # In one `problem.cycle` the state of the old orbit changes by the factor `sign`. A small
+    # deviation from the old orbit towards the new branch changes by the factor -`sign`.
     sign, size = (1 if doubled else -1), 4 if problem.damped else 2
     factors = point.orbit.factors[:, :size, :size].copy()
     factors[-1] *= -1
@@ -121,7 +122,10 @@ NEAR = 1e-9
 
 
 def follow_others(branches, follow):
-    """Extend the list `branches` by the branches that begin at events and ends of its branches."""
+    """Append to `branches` the branches that begin at an event, or on which another branch ends.
+
+    `follow(orbit, value)` returns the branch of an orbit at a value of the parameter.
+    """
     for branch in branches:
         for edge in (0, -1):
             point = _more_symmetric(branches, branch, edge)
@@ -152,8 +156,9 @@ def _more_symmetric(branches, branch, edge):
 def _new_branch(branches, branch, place, event):
     """Return a point of the branch that begins at `event`, or None if it is not to be followed.
 
-    It is not followed if it is known already. At a period doubling, and at any event of a `branch`
-    with a period other than 1 or 3, an orbit of `branch` beside the event must be stable.
+    `place` is the index of the event's point in `branch.points`. A known branch is not followed. At
+    a period doubling, and at any event of a `branch` with a period other than 1 or 3, the new
+    branch is followed only if an orbit of `branch` beside the event is stable.
     """
     ends = {0: branch.ends[0], len(branch.points) - 1: branch.ends[1]}
     if event.kind not in LEAVING or ends.get(place) == event.kind:
@@ -174,7 +179,7 @@ def _new_branch(branches, branch, place, event):
 
 
 def ends_at(branches, number, edge, event):
-    """Return whether branches[number] ends (see `edge`) at `event` of a more symmetric branch."""
+    """Return whether branches[number] begins (`edge` 0) or ends (`edge` 1) at `event`."""
     branch = branches[number]
     if branch.ends[edge] != event.kind or event.kind not in LEAVING:
         return False
@@ -201,7 +206,6 @@ def met_by(branches, number, edge):
 
 
 def _passes(branch, kind, point):
-    """Return whether `branch` contains `point`, or has an event of `kind` at `point.value`."""
     periods = point.orbit.periods
     there = [each.point for _, each in branch.events if each.kind == kind]
     near = any(abs(each.value - point.value) < NEAR for each in there)

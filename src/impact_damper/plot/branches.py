@@ -87,7 +87,7 @@ def followed_label(data):
 
 
 def runs(data, chosen):
-    """Yield stable and unstable parts of all branches for whose period `chosen(period)` is true."""
+    """Yield the parts (see `parts_by_stability`) of each branch whose period `chosen` accepts."""
     stable = data["orbit_stability"].values == flag("orbit_stability", "stable")
     value, size = data["followed_value"].values, data["orbit_displacement"].values
     for branch, period in enumerate(data["branch_period"].values):

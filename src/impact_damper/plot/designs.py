@@ -36,7 +36,7 @@ def design(data, axes=None):
 
 
 def conclusion(data) -> list[str]:
-    """Return the conclusion of a design: four paragraphs, and further paragraphs for exceptions.
+    """Return the conclusion of a design: four paragraphs, and further ones in special cases.
 
     The four paragraphs say what to build, how far the machine moves with the damper, how sure the
     promise is, and which change of gap or excitation breaks it first. Jinja2 must be installed.

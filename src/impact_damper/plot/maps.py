@@ -10,7 +10,7 @@ from impact_damper.plot import style
 
 
 def mesh(axes, x, y, values, norm, absent=None):
-    """Draw and return cells coloured by `values`. Hatched cells with the label `absent` are NaN."""
+    """Draw and return cells coloured by `values`. Hatch NaN cells, with `absent` in the legend."""
     back = {"facecolor": style.PALE, "hatch": "////", "edgecolor": style.GREY}
     axes.patch.set(linewidth=0, **back)
     if absent:

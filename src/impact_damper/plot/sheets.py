@@ -15,7 +15,7 @@ def datasets_in(data, takes, words) -> list[xr.Dataset]:
     """Return one or several datasets as a list.
 
     The function `takes` returns whether a dataset is allowed. `words` names the functions whose
-    results are allowed. Other datasets and datasets of several machines raise TypeError.
+    results are allowed. Raise TypeError for other datasets, or if not all are of one machine.
     """
     found = [data] if isinstance(data, xr.Dataset) else data
     if not isinstance(found, (list, tuple)) or not found:

@@ -118,7 +118,7 @@ MATHTEXT = {"rm": "r_m", "W": r"\Omega"}
 
 
 def context(*changes):
-    """Return a context manager or decorator that sets the common style, and then `changes`."""
+    """Return a context manager or decorator for the common style and further styles `changes`."""
     return matplotlib.style.context(["default", STYLE, *changes])
 
 

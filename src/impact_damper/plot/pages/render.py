@@ -139,9 +139,9 @@ QUANTITIES = {
 }
 # With fewer than HARDLY impacts in a cycle the loose mass is only ballast.
 HARDLY = 0.2
-# GIVEN has a row for each property of a machine: its key, description, unit, size of the unit in SI
-# units, key of its tolerance or None. COSTS has a row for each variable of a design: its name,
-# description, unit, factor by which to multiply the variable for this unit.
+# GIVEN has a row for each property of a machine: key, description, unit on the page, SI value of
+# this unit, and key of the property in `tolerances`, or None. COSTS has a row for each variable of
+# a design: name, description, unit on the page, and factor that converts the variable to this unit.
 TABLES = {
     "GIVEN": (
         ("mass", "mass without the loose mass", "kg", 1, None),
@@ -181,7 +181,7 @@ def size(value, unit="mm", digits=3) -> str:
 
 
 def numbers_of(data) -> dict:
-    """Return a dictionary of the numbers and texts of a design that the page shows."""
+    """Return the numbers and texts for the page of a design, by their names in the templates."""
     asked = parameters_of(data)  # arguments of the design
     gap, tolerances = float(data["design_gap"]), asked["tolerances"]
     tolerance = tolerances.get("gap", 0.0)
@@ -292,7 +292,7 @@ def _condition(data):
     if "force_map_displacement" in data:
         shares = data["force_share"].values
         sizes = data["force_map_displacement"].max("operating_frequency").values
-        # Above the given excitation, displacements may grow in proportion to the excitation.
+        # Above the given excitation, growth in proportion to the excitation keeps the promise.
         kept = sizes <= KEEPS * promised * np.maximum(shares, 1)
         for step in (1, -1):
             k = int(np.argmin(np.abs(shares - 1)))
