@@ -266,7 +266,7 @@ def read(path):
 
 
 def answer(decide, made, machine_file, file, force, as_json):
-    """Compute a design or an evaluation, save its data and a page about it, print the answer."""
+    """Call `decide` for data about the machine `made`. Save data and page, and print the answer."""
     from impact_damper.data.datasets import decode, save
     from impact_damper.model.machine import describe_si
     from impact_damper.plot import conclusion
@@ -316,7 +316,7 @@ def write_report(data, file, folder):
 
 
 def kept(data, output):
-    """Save a dataset to the path `output`, unless it is None. Return lines that tell the path."""
+    """Save a dataset to the path `output`, and return [message]. If `output` is None, return []."""
     if output is None:
         return []
     from impact_damper.data.datasets import save

@@ -66,7 +66,10 @@ class Allowed:
 
 
 def number(meaning="", *, above=None, least=None, most=None, why="", also=""):
-    """Return the pydantic type of finite numbers. Messages name `also` as another allowed value."""
+    """Return the pydantic type of finite numbers within bounds.
+
+    Messages tell `why` there are bounds, and `also` what a key allows besides these numbers.
+    """
     bounds = {"greater than": above, "at least": least, "at most": most}
     words = [f"a finite number{also and f' or {also}'}", *_bounds(bounds)]
     kind = confloat(strict=True, allow_inf_nan=False, gt=above, ge=least, le=most)

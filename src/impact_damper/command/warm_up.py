@@ -17,7 +17,7 @@ FREQUENCY = 1.95
 
 def warm_up_orbits() -> None:
     """Call each kernel that processes one motion at a time."""
-    # In this order, a parallel `warm_up_settling` rarely compiles the same kernel at the same time.
+    # A second process may run `warm_up_settling`. That function compiles other kernels first.
     from impact_damper.motions import legs, records, strobe_map, traces
 
     on, off = (pack(OSCILLATOR, damper, FREQUENCY) for damper in (DAMPER, None))

@@ -19,7 +19,6 @@ from impact_damper.model.parameters import Damper, Oscillator, pick
 from impact_damper.model.units import QUANTITIES
 
 SOURCE = "impact-damper"
-
 PURE = ("number", "angle", "mixed")  # kinds that stay dimensionless in datasets of machines
 
 
@@ -94,7 +93,6 @@ def from_si(data, scales) -> xr.Dataset:
 
 
 def _converted(data, convert, scales):
-    """Return a copy of a dataset. Each variable that has a unit becomes convert(values, unit)."""
     found = {}
     for name, each in data.variables.items():
         kind = _kind(name, data)
@@ -110,7 +108,6 @@ def _converted(data, convert, scales):
 
 
 def _kind(name, data):
-    """Return a variable's kind. In place of "followed", return the kind of the varied parameter."""
     kind = VARIABLES[name].kind
     if kind == "followed":
         parameter = parameters_of(data).get("parameter")
@@ -145,12 +142,10 @@ def named(data, name) -> str:
 def decode(values) -> xr.DataArray:
     """Return the names of the numbers in a flag variable, such as "settled" for 1.
 
-    Any variable with the attributes `flag_values` and `flag_meanings` of the CF conventions can be
-    decoded, such as `outcome`, `stability` or `event_kind`.
-
     Parameters
     ----------
     values : xarray.DataArray
+        A variable with the attributes `flag_values` and `flag_meanings`, such as `outcome`.
 
     Returns
     -------

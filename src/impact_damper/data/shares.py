@@ -28,11 +28,11 @@ def wilson(successes, total):
 
 
 def bounding_rank(share, total, doubt=DOUBT) -> int:
-    """Return k: the k-th largest of `total` samples of a distribution is a bound.
+    """Return k such that the k-th largest of `total` samples is an upper bound of a quantile.
 
-    With the confidence 1 - doubt, the distribution has at least the fraction `share` of its values
-    below this bound, whatever the distribution (S. S. Wilks, Ann. Math. Stat. 12, 1941). If
-    `total` is too small for a bound, k is 0.
+    The quantile is the value below which the fraction `share` of the distribution lies. The bound
+    holds with the confidence 1 - doubt for any distribution (S. S. Wilks, Ann. Math. Stat. 12,
+    1941). If `total` is too small for a bound, k is 0.
     """
     return int(np.sum(bdtr(np.arange(total), total, 1 - share) <= doubt))
 
@@ -43,9 +43,12 @@ def starts_needed(share) -> int:
 
 
 def escape_rate(lives, horizon):
-    """Return the rate per cycle at which motions of `lives` cycles end, and its 95 % interval."""
-    captures = np.sum(lives <= horizon)  # number of motions that ended within `horizon` cycles
-    exposure = np.sum(np.minimum(lives, horizon))  # cycles that all motions lasted together
+    """Return the rate per cycle at which motions end, and both ends of its 95 % interval.
+
+    Motion i ends after lives[i] cycles. Ends after more than `horizon` cycles are not observed.
+    """
+    captures = np.sum(lives <= horizon)  # number of ends that are observed
+    exposure = np.sum(np.minimum(lives, horizon))  # observed cycles of all motions, added up
     # The ends of a confidence interval for a Poisson count are quantiles of a gamma distribution.
     lower = gammaincinv(captures, 0.025) if captures else 0.0
     return np.array([captures, lower, gammaincinv(captures + 1, 0.975)]) / exposure

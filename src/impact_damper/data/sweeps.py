@@ -12,7 +12,7 @@ NAMES = {value: name for name, value in OUTCOME.items()}
 class Family(NamedTuple):
     """A motion found at some parameter values of a sweep. `starts` random starts lead to it.
 
-    `places`, shape (parameter values, motions), is True at the entries of this motion.
+    places[i, j] is True if the sweep lists this motion in column j at the parameter value i.
     """
 
     outcome: str
@@ -35,5 +35,5 @@ def families(data) -> list[Family]:
 
 
 def runs_of_true(mask) -> np.ndarray:
-    """Return the first index of each stretch of True and the index after it, shape (n, 2)."""
+    """Return a row for each stretch of True: its first index, and the index after its last one."""
     return np.flatnonzero(np.diff(np.asarray(mask, int), prepend=0, append=0)).reshape(-1, 2)

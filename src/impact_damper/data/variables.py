@@ -58,7 +58,6 @@ def register(table) -> None:
 
 
 def _named_values(text):
-    """Return {name: number} of a text such as "absent 0, found 1", or of the variable `text`."""
     text = text.strip()
     if not text or text in VARIABLES:
         return VARIABLES[text].flags if text else None

@@ -18,9 +18,9 @@ from impact_damper.design.task import labelled
 from impact_damper.model.machine import TunedAbsorber
 from impact_damper.theory.roots import polynomial_roots
 
-# An absorber is tuned to lower the largest displacement at POINTS frequencies, which lie up to
-# REACH widths of the resonance peak from the resonance. If a band is given, frequencies outside the
-# band are left out, and POINTS evenly spaced frequencies in the band are added.
+# An absorber is tuned to lower the largest displacement at POINTS frequencies. They extend on both
+# sides of the resonance to REACH widths of the resonance peak. If a band is given, frequencies
+# outside the band are left out, and POINTS evenly spaced frequencies in the band are added.
 POINTS, REACH = 1001, 8.0
 # The optimizer `differential_evolution` searches ln(absorber frequency/machine frequency) within
 # the bounds TUNINGS, and ln(damping ratio of the absorber) within the bounds DAMPINGS. TOLERANCE is
@@ -38,8 +38,8 @@ def absorber_responses(
 
     One absorber has the mass `mass` (kg) and is tuned over `band` (Hz). The second absorber, `own`,
     may be None. `frequencies` are in Hz. The excitation is multiplied by each number in
-    `force_shares`. `detunings` are relative changes of the stiffness of an absorber. For a machine
-    without linear stiffness, displacements with the tuned absorber are NaN.
+    `force_shares`. The stiffness of both absorbers is changed by each of the fractions `detunings`.
+    For a machine without linear stiffness, displacements with the tuned absorber are NaN.
     """
     names = COMPETITORS[: 2 if own is None else 3]
     sizes = np.full((len(names), len(detunings), len(frequencies), len(force_shares)), np.nan)
@@ -70,7 +70,7 @@ def absorber_responses(
 
 @cache
 def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
-    """Return the absorber with the lowest peak over `band` (Hz) if the spring is linear."""
+    """Return the absorber with the lowest peak over `band` (Hz). The cubic spring is left out."""
     ratio, linear = mass / machine.mass, replace(machine, cubic_stiffness=0.0)
     frequencies = _frequencies(linear, ratio, band)
 
@@ -83,7 +83,7 @@ def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
         stiffness, force = _dynamics(linear, absorber(*logs), frequencies)
         return np.max(force / np.abs(stiffness))
 
-    # At the optimum `highest` has a kink. Optimizers that use slopes stop before it.
+    # The function `highest` has a kink at its minimum, so an optimizer must not rely on slopes.
     given = {"rng": SEED, "tol": TOLERANCE, "atol": 0, "polish": False}
     return absorber(*differential_evolution(highest, (TUNINGS, DAMPINGS), **given).x)
 

@@ -1,9 +1,4 @@
-"""Motions from random starts in each cell of a design, and bounds of their displacements.
-
-A cell is a gap, a forcing frequency and a set of factors. A factor multiplies a nominal value, such
-as the restitution. A regime is a group of motions of one cell that have not settled and have
-similar largest displacements (see docs/explanation/promise.md).
-"""
+"""Motions from random starts in each cell of a design, and bounds of their displacements."""
 
 from dataclasses import dataclass, fields
 from typing import NamedTuple
@@ -20,32 +15,29 @@ from impact_damper.motions.steady import run_chunks
 # A motion that ends with one of these outcomes is not run further.
 LASTING = (SETTLED, NON_COLLIDING, AT_REST, DRIFTING)  # outcomes of the first run of a motion
 KEPT = (SETTLED, NON_COLLIDING, AT_REST)  # outcomes of later runs of a motion
-# Purposes for which random starts are drawn. The seed depends on the purpose. The search for a gap
-# and the confirmation of this gap therefore use different starts.
+# Purposes for which random starts are drawn. Different purposes have different starts.
 STREAMS = "search compared confirmed orbit forces masses repeated shocks searched_again".split()
 # DRAWN: number of cells for which a thread draws random starts at a time.
 # FOLLOWED: number of motions that a thread integrates at a time.
 # TOGETHER: `Motions.largest` runs motions of up to TOGETHER cells before it computes bounds again.
 DRAWN, FOLLOWED, TOGETHER = 4, 64, 8
 # A regime is a group of motions of one cell. The motions that have not settled are sorted by their
-# largest displacements. Two neighbours belong to one regime if their ratio is at most APART.
+# largest displacements. Neighbours are in one regime if the larger is up to APART x the smaller.
 APART = 1.3
 # A block peak is the largest displacement of a motion in a block of BLOCK forcing cycles. From the
 # TAIL largest block peaks `return_level` extrapolates the largest displacement in HORIZON cycles.
 BLOCK, TAIL, HORIZON = 50, 50, 100_000
-# A regime is a group of similar motions that have not settled. n is the number of forcing cycles
-# that its motions have run together. From n = POOLED on, the largest displacement of the regime is
-# extrapolated. From n = MOST_POOLED on, the regime is not run further.
+# n is the sum of the forcing cycles of all motions of a regime. If n < POOLED, the largest
+# displacement of the regime is multiplied by 1 + MISSING x max(1, log2(POOLED/n)). If n >= POOLED,
+# it is extrapolated. If n >= MOST_POOLED, the motions of the regime are not run further.
 POOLED, MOST_POOLED = 25_000, 200_000
-# If the motions of a regime have run n < POOLED cycles together, their largest displacement is not
-# extrapolated, but multiplied by 1 + MISSING x max(1, log2(POOLED/n)).
 MISSING = 0.03
-# The run of a regime is divided into QUARTERS equal parts. Its displacement is not extrapolated if
-# the largest displacements in the parts differ by at most the fraction STEADY. If displacements are
-# only used to compare gaps, the limit is ROUGH instead of STEADY.
+# The run of a regime is divided into QUARTERS equal parts. The regime is steady if the largest
+# displacements in the parts differ by at most the fraction STEADY (ROUGH if gaps are compared). The
+# largest displacement is then not extrapolated, but multiplied by 1 + STEADY.
 # The largest displacement of a settled motion is multiplied by 1 + SLACK.
 QUARTERS, STEADY, ROUGH, SLACK = 4, 0.002, 0.01, 0.001
-CHECKED = 100  # number of cycles that motions get to settle, each time before they are run further
+CHECKED = 100  # cycles of a test run before each longer run; it shows which motions settle
 
 
 class Cell(NamedTuple):
@@ -87,7 +79,7 @@ class Motions:
     states : array, shape (m, n, 4)
         State of each motion at its last strobe. The strobe is a fixed phase of the forcing.
     settled : array of bool, shape (m, n)
-        True for a motion that is not run further, by its outcome (see LASTING, KEPT) or escape.
+        True after an outcome in LASTING or KEPT, or an escape. The motion is then not run further.
     peaks : array, shape (m, n)
         Largest displacement of each motion so far; infinite after an escape.
     early : array, shape (m, n, QUARTERS)
@@ -116,11 +108,12 @@ class Motions:
         return [regime for regime in found if len(regime)]
 
     def measured(self, k, regime, rough=False) -> tuple:
-        """Return the displacement of the motions of cell k in `regime` (indices), and two booleans.
+        """Return a displacement for the motions of cell k in `regime` (indices), and two booleans.
 
-        The displacement is a bound for a long run, or with `rough` an estimate. The first boolean
-        is True if the motions need not be run further. The second is True if the displacement is
-        steady or infinite, or if no block peak of the second half of the run exceeds the
+        The displacement is an estimate for HORIZON cycles. With `rough` it is coarser. The first
+        boolean is True if the motions need not be run further. The second boolean is False before
+        the motions have run POOLED cycles, unless they escape. Later it is True if the regime is
+        steady (see STEADY), or if no block peak of the second half of the run exceeds the
         displacement that is extrapolated from the first half.
         """
         record, peaks = self.peaks[k, regime].max(), self.blocks[k][regime]
@@ -144,7 +137,10 @@ class Motions:
         return return_level(peaks), tested or pooled >= MOST_POOLED, tested
 
     def numbers(self, k, rough=False) -> tuple:
-        """Return two arrays over the motions of cell k: displacement, and whether it is final."""
+        """Return two arrays over the motions of cell k: displacement, and True if it is final.
+
+        It is final if the motion need not be run further. With `rough`, it is a coarse estimate.
+        """
         sizes, known = (1 + SLACK) * self.peaks[k], self.settled[k].copy()
         for regime in self.regimes(k):
             sizes[regime], known[regime], _ = self.measured(k, regime, rough)
@@ -189,10 +185,10 @@ class Motions:
                 self.follow(k, next(each for each in self.regimes(k) if places[k] in each))
 
     def follow(self, k, regime) -> None:
-        """Run the motions of cell k in `regime` (indices) until their number of cycles has doubled.
+        """Run each motion of cell k in `regime` (indices) for as many blocks as it has run so far.
 
-        The first call runs the motions for at least POOLED/2 cycles together. It discards their
-        displacements in earlier cycles, which may belong to transients.
+        If no motion has run a block (see BLOCK), the motions are run for POOLED/2 cycles in total.
+        Displacements before the first block may be of transients, and are dropped.
         """
         loud = regime[~self._settle(k, regime)]
         if not len(loud):
@@ -284,7 +280,7 @@ def peaks_of_blocks(task, parameters, states, number, cycles) -> np.ndarray:
 
 
 def return_level(peaks) -> float:
-    """Return the displacement that is exceeded once in HORIZON cycles, or the largest of `peaks`.
+    """Return the displacement exceeded once in HORIZON cycles, but at least the largest of `peaks`.
 
     `peaks` are largest displacements in blocks of BLOCK cycles. The amounts by which peaks exceed a
     high level are assumed to be distributed exponentially (S. Coles, An Introduction to Statistical

@@ -14,12 +14,12 @@ from impact_damper.design.promise import Promise, factor_sets
 from impact_damper.design.search import score, search, search_around
 from impact_damper.design.task import NOMINAL, NUMERICAL, SIDES, VARIED, Task, labelled
 
-# In up to ROUNDS rounds the best gap on the curve of the search is run with new starts. The rounds
-# end early if this gap was run in an earlier round, or if the least displacement promised in any
-# round is at most CONFIRMED x the displacement of the best gap on the curve.
+# A round runs the best gap on the curve of the search with new starts, and corrects the curve. Up
+# to ROUNDS rounds follow each other. They end early if the best gap was run before, or if the
+# smallest displacement promised so far is at most CONFIRMED x that of the best gap on the curve.
 CONFIRMED, ROUNDS = 1.05, 4
-# New starts at a gap give bounds. If one of the bounds exceeds SURPRISE x the displacement that the
-# search found within the tolerance of the gap, nearby gaps are run again.
+# If the promised displacement of a gap exceeds SURPRISE x the largest displacement that the search
+# has found at the gaps within its tolerance, nearby gaps are searched again.
 SURPRISE = 1.1
 
 
@@ -79,7 +79,10 @@ def confirm(task, gap, turn, sets, progress=None) -> Tried:
 
 
 def learn(task, tried, turn, curve, progress=None) -> None:
-    """Put the bounds at a tried gap into `curve`. If they are too large, run nearby gaps again."""
+    """Put the bounds of the gap in `tried` into `curve`.
+
+    After a surprise (see SURPRISE), nearby gaps are searched again. `turn` counts the rounds.
+    """
     gap, promise = tried.gap, tried.promise
     sizes, factors = promise.by_set(), promise.sets[:, 0]
     expected = curve.within(*np.array(task.gap_ends(gap))[:, None])[0]
@@ -98,7 +101,10 @@ def learn(task, tried, turn, curve, progress=None) -> None:
 
 
 def conclude(task, found, curve, status) -> xr.Dataset:
-    """Return the dataset of the decision and of all numbers that led to the decision."""
+    """Return the dataset of the decision on the gap `found`, which was run with new starts.
+
+    The dataset also holds the `curve` of the search, and `status` as the variable `confirmation`.
+    """
     promise = found.promise
     frequencies = np.unique([f for _, f in promise.cells])
     table = np.full((len(promise.sets), len(frequencies)), np.nan)
@@ -174,7 +180,7 @@ def conclude(task, found, curve, status) -> xr.Dataset:
 
 
 def rivals(task) -> xr.Dataset:
-    """Return a dataset: largest displacement with a tuned, a detuned and the given absorber."""
+    """Return largest displacements with a tuned absorber, one detuned by 10 %, `task.absorber`."""
     names = ("tuned_displacement", "detuned_displacement", "own_absorber_displacement")
     values = dict.fromkeys(names, np.nan)
     given = task.machine, task.mass, task.grid, [1.0]

@@ -180,10 +180,7 @@ def evaluate_damper(
 
 
 def answer(task, decide, title, folder, progress) -> xr.Dataset:
-    """Return the result of a task: the decision, computed by `decide`, and additional datasets.
-
-    A dataset whose computation fails with a numerical error is left out, see `addition_status`.
-    """
+    """Return one dataset: the decision, computed by `decide`, and the results of ADDITIONS."""
     step = Steps(folder, progress, task.describe()).step
     decision = step("decision", decide, task)
     parts, status = [decision], []
@@ -212,9 +209,9 @@ def answer(task, decide, title, folder, progress) -> xr.Dataset:
 
 
 class Steps:
-    """Runs the steps of a design. If a folder is given, each step keeps its dataset in a file.
+    """Runs the steps of a design. If a folder is given, each step saves its dataset there.
 
-    Later runs read this file if `inputs` and the source files of the package are unchanged.
+    A later run with equal `inputs` and unchanged source files of the package reads this dataset.
     """
 
     def __init__(self, folder, progress, inputs):

@@ -1,8 +1,4 @@
-"""Design for migration: gaps and frequencies at which a release of the damper is sure to succeed.
-
-A machine with a cubic spring can have a large and a small free motion. A release succeeds if it
-leads the machine from the large to the small free motion (`motions.migration`).
-"""
+"""Design for migration: gaps and frequencies at which a release leads to the small free motion."""
 
 import json
 
@@ -44,13 +40,13 @@ def migration(
     are run at each gap and frequency. `progress` is the title of a progress bar. For other
     arguments see `design_damper`.
 
-    A release succeeds if the small motion is reached. Its time (s) runs from switching the damper
-    on until the small motion has settled; without success the time is infinite. The dataset has for
-    each gap and frequency the share of releases that succeed, the median time, and a bound,
+    A release succeeds if it leads to the small motion. Times (s) begin when the damper is switched
+    on, and end when the small motion has settled. Without success they are infinite. The dataset
+    has for each gap and frequency the share of releases that succeed, the median time, and a bound,
     `migration_bound`. With 95 % confidence at least the fraction `share` of all releases takes at
-    most this time. `sure_frequency` of a gap is the lowest frequency from which on the bound is
-    finite, wherever there are two free motions. `migration_gap` is the gap with the lowest
-    `sure_frequency`. ValueError is raised if each frequency has only one free motion.
+    most this time. From `sure_frequency` of a gap upwards, the bound is finite at each frequency
+    with two free motions. `migration_gap` is the gap with the lowest `sure_frequency`. ValueError
+    is raised if each frequency has only one free motion.
     """
     effort = Effort() if effort is None else effort
     task = Task(
@@ -99,7 +95,10 @@ def _case(task, gap, frequency):
 
 
 def release_time(case, seed, longest_hold, settling, stop) -> float:
-    """Return the cycles from switching the damper on until the small motion settles, or inf."""
+    """Return the cycles from switching the damper on until the small motion has settled.
+
+    The result is infinite if another motion is reached, or if the run is ended by stop[0] = True.
+    """
     draws = np.random.default_rng(seed).random((1, 3))
     _, log = control(case, draws, longest_hold, settling, 0, None, stop)
     reached = log["destination"][0] == FREE_MOTION["non_resonance"]

@@ -12,11 +12,13 @@ from impact_damper.design.task import VARIED
 CORNERS = 8  # largest number of corners. In a corner each value is at one end of its tolerance.
 # A set of factors has a bound of the displacement at each frequency. The largest of these bounds is
 # the peak of the set. Up to SPLITS rounds add frequencies on both sides of each peak that is at
-# least NEAR x the largest peak. A finite peak is known if two conditions hold: the last round
-# raised the peak by at most the fraction PEAK, and a parabola through the peak and the bounds on
-# both sides exceeds the peak by at most the fraction PEAK.
+# least NEAR x the largest peak of all sets. No frequencies are added beside an accurate peak.
+# A finite peak is accurate if two conditions hold. The round before has raised the peak by at most
+# the fraction PEAK. A parabola through the largest bound and the bounds at both neighbouring
+# frequencies has a maximum that exceeds the largest bound by at most the fraction PEAK.
 NEAR, PEAK, SPLITS = 0.9, 0.01, 4
-FEWEST = 9  # least number of frequencies at which sets of factors other than nominal are first run
+# The nominal set is run at all n frequencies of a grid, other sets first at max(n/2, FEWEST).
+FEWEST = 9
 # A cell has rare motions if its bound exceeds RARE x the largest usual displacement of all cells.
 # Such cells are run again with MORE x as many starts, SOME cells at a time, the cells with the
 # largest bounds first. b is the least bound that these SOME cells had before. If one of their new
@@ -37,7 +39,7 @@ class Promise:
         For each cell the displacement (mm) below which at least the fraction `task.share` of all
         its motions stays, with 95 % confidence.
     peak_known : bool
-        Whether the largest bounds over the frequency are known well enough (see PEAK).
+        Whether the largest bounds over the frequency are accurate (see PEAK).
     grows : bool
         Whether motions in the cell with the largest bound still reach new peaks after a long run.
     """
@@ -95,7 +97,7 @@ class Promise:
                 return
 
     def refined(self) -> "Promise":
-        """Run frequencies beside the largest bounds until these are known (see PEAK)."""
+        """Add frequencies until the largest bounds are accurate (see PEAK), and return `self`."""
         before = {}
         for _ in range(SPLITS):
             cells = []
@@ -134,9 +136,9 @@ class Promise:
 
 
 def is_peak_known(frequencies, bounds, before) -> bool:
-    """Return whether the largest of `bounds` over `frequencies` is known well enough (see PEAK).
+    """Return whether the largest of `bounds` over `frequencies` is accurate (see PEAK).
 
-    `before` is the largest bound before the last frequencies were added, or 0 in the first call.
+    `before` is the largest bound of the preceding round, or 0 in the first round.
     """
     k = int(np.argmax(bounds))
     if np.isinf(bounds[k]):

@@ -37,7 +37,7 @@ def quiet_orbit(task, gap, frequency) -> Orbit | None:
 
 
 def over_gap(task, gap, frequency, orbit, cliff) -> xr.Dataset:
-    """Return the branch of `orbit` over the gap. Compare its best gap with `cliff` (mm)."""
+    """Return the branch of `orbit` over the gap, and whether its minimum is beyond `cliff` (mm)."""
     gaps = sizes = moduli = np.empty(0)
     if orbit is not None:
         oscillator, damper, turning = task.system(1e-3 * gap, frequency)

@@ -29,12 +29,14 @@ DOUBTED = 1.1
 # The interval between neighbouring gaps a < b is split if log(b/a) > SMOOTH. If there is a jump
 # between a and b, the interval is split if log(b/a) > FINE.
 JUMP, SMOOTH, FINE = 1.3, 0.03, 0.004
-# The value of a nominal gap is the largest displacement at all gaps within its tolerance.
-# V is the least value of all nominal gaps. A stretch is an interval of gaps with values up to
-# CANDIDATE x V. v is the least value in a stretch. A range is the interval around the gap of v in
-# which values are at most LEVEL x v. The range is good if v is at most ALIKE x V.
+# The tolerated displacement of a nominal gap is the largest displacement at all gaps within its
+# tolerance. S is the smallest tolerated displacement of all nominal gaps.
+# CANDIDATE: a gap is a candidate if its tolerated displacement is at most CANDIDATE x S.
+# LEVEL: neighbouring candidates form a group. Around the best gap of each group there is a range.
+#   It ends where the tolerated displacement exceeds LEVEL x that of the best gap.
+# ALIKE: the widest range is chosen among those whose best gap has at most ALIKE x S.
 CANDIDATE, ALIKE, LEVEL = 1.15, 1.04, 1.05
-NOMINAL_GAPS = 4001  # number of nominal gaps whose values are computed
+NOMINAL_GAPS = 4001  # number of nominal gaps whose tolerated displacements are computed
 # The gap near the middle of a range is rounded to DIGITS significant digits. If the rounded gap
 # lies outside the range, the gap is rounded to more digits, but fewer than MOST_DIGITS.
 DIGITS, MOST_DIGITS = 3, 9
@@ -44,7 +46,7 @@ HUGE = 1e9  # displacement (mm) that stands for an infinite displacement
 class Range(NamedTuple):
     """Nominal gaps from `low` to `high`, and one `gap` near the middle, mm.
 
-    Each gap has a largest displacement within its tolerance. `size` (mm) is the least of these.
+    `size` (mm) is the smallest tolerated displacement of these gaps (see CANDIDATE).
     """
 
     low: float
@@ -63,11 +65,11 @@ class Curve:
         self.sets = [NOMINAL]  # sets of factors with the largest displacements near the best gaps
 
     def put(self, gaps, sizes, worst, *, close=True, replace=False) -> None:
-        """Add displacements `sizes` (mm) at `gaps` (mm). They occur at frequencies `worst` (Hz).
+        """Add to the curve gaps[i] (mm), its displacement sizes[i] (mm), and worst[i] (Hz).
 
-        If the curve already has a displacement at a gap, the larger of both is kept, or with
-        `replace` the new one. `close` is True for gaps that need not be run again with more starts,
-        and False for gaps of the first search.
+        The displacement occurs at the frequency worst[i]. If the curve already has a displacement
+        at a gap, the larger of both is kept, or with `replace` the new one. `close` is False in the
+        first search, which has few starts, and True in all later runs.
         """
         for gap, size, frequency in zip(gaps, np.minimum(sizes, HUGE), worst, strict=True):
             k = int(np.searchsorted(self.gaps, gap * (1 - 1e-9)))
@@ -102,7 +104,7 @@ class Curve:
         return np.exp(np.maximum(found, np.where(inside, values, -np.inf).max(axis=1)))
 
     def nominal(self) -> tuple:
-        """Return many nominal gaps, and the largest displacement in the tolerance of each; mm."""
+        """Return nominal gaps all over the curve, and their tolerated displacements, in mm."""
         share, width = self.task.gap_tolerance
         first, last = (self.gaps[0] + width) / (1 - share), (self.gaps[-1] - width) / (1 + share)
         gaps = np.geomspace(first, max(last, first), NOMINAL_GAPS)
@@ -121,7 +123,7 @@ class Curve:
         return found
 
     def choose(self) -> Range:
-        """Return the widest of the ranges whose displacement is near the smallest (see ALIKE)."""
+        """Return the widest of the ranges with a `size` of at most ALIKE x the smallest `size`."""
         ranges = self.ranges()
         best = min(each.size for each in ranges)
         good = [each for each in ranges if each.size <= ALIKE * best]
@@ -199,7 +201,7 @@ def score(task, gaps, frequencies, starts, stream, progress=None, sets=(NOMINAL,
     The result is three sequences over `gaps` (mm). A cell is a gap, one of `frequencies` (Hz) and
     one of `sets` (of factors). Each cell has `starts` random starts. About the fraction
     (1 - task.share)/2 of the motions of a cell exceed the displacement of the cell. The worst cell
-    has the largest displacement. If this is doubtful, the cell is run again (see DOUBTED).
+    has the largest displacement. If rare motions cause it, the cell is run again (see DOUBTED).
     """
     conditions = [(f, tuple(each)) for f in frequencies for each in sets]
     cells = [Cell(1e-3 * gap, *each) for gap in gaps for each in conditions]
@@ -250,7 +252,7 @@ def search(task, progress=None, rounds=ROUNDS) -> Curve:
 
 
 def search_around(task, gap, sets, progress=None) -> Curve:
-    """Return the `Curve` from gap/2 to 2 gap (mm). At each gap the worst of `sets` counts."""
+    """Return the `Curve` from gap/2 to 2 gap (mm), with the largest displacement over `sets`."""
     curve, few = Curve(task), task.few(FREQUENCIES)
     gaps = gap * np.geomspace(0.5, 2, 2 * task.effort.candidates + 1)
     curve.put(gaps, *score(task, gaps, few, STARTS, ("search",), progress, sets)[:2])

@@ -22,11 +22,11 @@ LIMITS = (10, 30, 100, 300, 1000 - BLOCK)
 
 
 def shocks(task, decision, progress=None) -> xr.Dataset:
-    """Return a dataset of the times in which motions return after impulses and from random starts.
+    """Return a dataset of the times after which motions stay below the promised displacement.
 
-    A motion has returned once it stays below the promised displacement. All values are nominal, and
-    the frequency is `promised_frequency`. The impulse acts at a fixed phase of the forcing, on the
-    machine in the smallest motion that random starts lead to.
+    Some motions begin at random starts. In the other motions an impulse acts on the machine, at a
+    fixed phase of the forcing. Before the impulse, the machine is in the smallest of the motions
+    that random starts lead to. All values are nominal, the frequency is `promised_frequency`.
     """
     frequency = float(decision["promised_frequency"])
     cell = Cell(1e-3 * float(decision["design_gap"]), frequency)
@@ -42,7 +42,7 @@ def shocks(task, decision, progress=None) -> xr.Dataset:
     drawn = draw_starts(task, [cell], task.effort.starts, ("shocks", 1))[0]
     starts = convergence_times(task, p, drawn, promised)
     critical = np.abs(changes)[np.isinf(returned)].min(initial=np.inf)
-    # `critical` is the least impulse without a return. Slightly smaller impulses are tried.
+    # After the impulse `critical` the motion does not return. Try slightly smaller impulses.
     first = changes[np.isinf(returned) & (np.abs(changes) <= critical)]
     steps = most / SHOCKS * np.arange(SHOCKS) / SHOCKS
     fine = (first[:, None] - np.sign(first)[:, None] * steps).ravel()

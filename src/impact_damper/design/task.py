@@ -36,7 +36,7 @@ VARIED = tuple("gap restitution contact_stiffness gravity friction stiffness dam
 NOMINAL = (1.0,) * len(VARIED)  # factors by which nominal values are multiplied, here all 1
 TOLERANCES = {"gap": 0.2}  # largest relative deviations if none are given
 SIDES = ["lower", "upper"]
-# If the computation of an additional result raises one of these errors, a design leaves it out.
+# A result in addition to the decision is left out if one of these errors occurs in its computation.
 NUMERICAL = (ArithmeticError, ValueError, IndexError, np.linalg.LinAlgError)
 MOST_DEVIATION = 0.9  # largest relative deviation that is allowed
 # Value -> physical quantity of its tolerance, if the tolerance is given with a unit and not as a
@@ -56,9 +56,9 @@ ESCAPING = 4.0
 # An absorber is tuned from ABSORBED[0] x f1 to ABSORBED[1] x f2. f1 is the lowest and f2 the
 # highest of four frequencies: both ends of the band, lowest and highest resonance of the machine.
 ABSORBED = 0.5, 2.0
-# The first run of a motion has at most N forcing cycles, or the limit in `Effort.settling` if this
-# is smaller. An unforced vibration of the machine falls to 1/e in D cycles. For a chaotic motion N
-# is max(PATIENT x D, LEAST_PATIENCE), for any other motion max(LONG x PATIENT x D, LEAST_LIMIT).
+# In the first run of a motion, `Settling.patience` is at most max(PATIENT x D, LEAST_PATIENCE), and
+# `Settling.limit` is at most max(LONG x PATIENT x D, LEAST_LIMIT). D is the number of forcing
+# cycles in which an unforced vibration of the machine falls to 1/e.
 PATIENT, LEAST_PATIENCE = 5, 100
 LONG, LEAST_LIMIT = 6, 600
 WATCHED = 100  # least number of forcing cycles over which an unsettled motion is measured
@@ -223,7 +223,6 @@ class Task:
                 self.packed(gap, frequency, factors)
 
     def _checked_tolerances(self):
-        """Return {name: fraction}. A gap tolerance with a unit becomes text such as "0.0002 m"."""
         if not isinstance(self.tolerances, Mapping):
             raise TypeError(f"tolerances = {bounds.shown(self.tolerances)}: must be a dictionary")
         machine, found = self.machine, {}
@@ -274,7 +273,7 @@ class Task:
         """Least and greatest gap that a design considers, mm."""
         rules = np.array([1e3 * self.rule_gap(f) for f in self.grid])
         sizes = self.bare[np.isfinite(self.bare)]
-        # In a wider gap the walls of the machine do not reach a loose mass at rest in the middle.
+        # In a gap wider than `most`, no wall reaches a loose mass that rests in the middle.
         most = 2 * sizes.max() if len(sizes) else ESCAPING * rules.max()
         if self.gravity:  # the machine may throw the loose mass up to the opposite wall
             speeds = 1e-3 * self.bare * 2 * math.pi * self.grid
@@ -298,7 +297,7 @@ class Task:
 
     @cached_property
     def resonances(self) -> list[float]:
-        """Resonances in the band (Hz), of the machine alone and with the loose mass fixed to it."""
+        """Resonances in the band, Hz: of the machine without loose mass, and with a fixed one."""
         ratio = math.sqrt(1 + self.mass / self.machine.mass)
         found = [each for end in self.resonance for each in (end / ratio, end)]
         return [each for each in found if self.band[0] < each < self.band[1]]
@@ -342,10 +341,7 @@ class Task:
         return float(self.grid[np.argmax(self.bare)])
 
     def few(self, count, *others) -> np.ndarray:
-        """Return `count` frequencies (Hz), evenly spread over `grid`, and a few additional ones.
-
-        The additional frequencies are `worst_frequency`, `resonances` and `others`.
-        """
+        """Return `count` frequencies of `grid`, `worst_frequency`, `resonances`, `others`; Hz."""
         places = np.linspace(0, len(self.grid) - 1, count).round().astype(int)
         resonances = np.intersect1d(self.grid, self.resonances)
         return np.union1d(self.grid[places], [self.worst_frequency, *resonances, *others])

@@ -33,11 +33,11 @@ EQUIPMENT = ("bare", "damped")
 TOLERANCE = 1e-10
 # SWEEP: the rate of a sweep in Hz/s is SWEEP x (damping ratio x natural frequency in Hz)^2. At
 # this rate the resonance peak of a linear machine is 6 % lower than in steady state.
-# MOST_SWEPT: largest number of cycles in a sweep. A longer sweep gets a higher rate instead.
+# MOST_SWEPT: largest number of cycles in a sweep. If SWEEP gives more, the rate is raised.
 SWEEP, MOST_SWEPT = 4.0, 6000
 STEEPEST = 0.01  # largest relative change of the frequency of a sweep in a forcing cycle
-# Before a sweep the first frequency is held until transients without the damper have decayed to
-# the fraction SETTLED, but for at most HELD forcing cycles.
+# Before each sweep the first frequency is held for at most HELD cycles. This time is so long that
+# transients of the machine without the damper decay to SETTLED x their initial amplitude.
 SETTLED, HELD = 0.01, 10**5
 # An unforced decay begins at a displacement A. It ends when the energy of machine and loose mass is
 # at most the energy of the machine alone at the displacement REST x A, or after MOST_WINDOWS
@@ -49,8 +49,7 @@ REST, MOST_WINDOWS, LONGEST = 1e-3, 10**4, 2.0
 def transients(task, choice, progress=None) -> xr.Dataset:
     """Return a dataset: swept sine and unforced decay, without and with the chosen damper."""
     machine, damper = task.machine, task.damper(1e-3 * float(choice["design_gap"]))
-    # A sweep leads to the large motions of a nonlinear machine only if the sweep passes all
-    # resonances. Resonances may lie outside the band.
+    # Only a sweep through all resonances meets all large motions of a nonlinear machine.
     low = min(task.band[0], task.resonance[0])
     high = max(task.band[1], task.resonance[1])
     decay_rate = machine.viscous_damping / (4 * np.pi * machine.mass)
@@ -155,7 +154,10 @@ def decay(machine, damper, displacement):
 
 
 def lowest_energy(p, y) -> float:
-    """Return the energy at rest. Gravity puts the loose mass on a wall unless friction holds it."""
+    """Return the energy of machine and loose mass at rest.
+
+    Gravity puts the loose mass on a wall, unless friction holds the loose mass in the state `y`.
+    """
     if not p[INVERSE_MASS_RATIO]:
         return 0.0
     weight = p[GRAVITY] / p[INVERSE_MASS_RATIO]
@@ -189,8 +191,8 @@ def unforced_period(stiffness, cubic, amplitude) -> float:
     """Return the period of x'' + a x + b x^3 = 0 at amplitude A. a: `stiffness`, b: `cubic`.
 
     The motion is A cn(w t | m), where cn is Jacobi's function, w^2 = a + b A^2, m = b A^2/(2 w^2).
-    The period is 4 K(m)/w, where K is the complete elliptic integral of the first kind. (A. H.
-    Nayfeh and D. T. Mook, Nonlinear Oscillations, 1979, section 2.1.) It is infinite if w^2 <= 0.
+    The period is 4 K(m)/w, or infinite if w^2 <= 0. K is the complete elliptic integral of the
+    first kind. (A. H. Nayfeh and D. T. Mook, Nonlinear Oscillations, 1979, section 2.1.)
     """
     square = stiffness + cubic * amplitude**2
     if square <= 0:
