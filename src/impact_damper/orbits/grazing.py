@@ -24,7 +24,7 @@ RATIO, LEAST, MOST = 10.0, 1e-13, 2e-5
 HALVINGS, HALVINGS_BETWEEN = 8, 3
 # A step led to a more symmetric branch if max |`Orbit.deviation`| fell to FALLEN x its old value.
 FALLEN = 0.01
-# If contacts vanish in a grazing, two points beyond it have the extremum this far from the wall.
+# If contacts vanish in a grazing, the extremum is this far from the wall at two points beyond it.
 BESIDE = 1e-9, 2e-5
 # Newton's method fails if it must change an unknown by LARGEST or more. It has converged only if
 # the error of the height is below CLOSE x |height| + ROUNDING.

@@ -22,7 +22,7 @@ CUTS, ROUGH = 4, 4.0
 def shoot(p, state, periods, phase, *, symmetric=False) -> Orbit:
     """Integrate a state over `periods` forcing cycles. Return an `Orbit` with a single segment.
 
-    It need not be periodic. If `symmetric`, only half of this time is integrated.
+    The orbit need not be periodic. If `symmetric`, only half of the cycles are integrated.
     """
     cycle = periods * TURN * (0.5 if symmetric else 1.0)
     return integrate(p, periods, (phase, phase + cycle), [state], -1 if symmetric else 1)

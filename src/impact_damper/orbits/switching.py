@@ -124,7 +124,7 @@ NEAR = 1e-9
 def follow_others(branches, follow):
     """Append to `branches` the branches that begin at an event, or on which another branch ends.
 
-    `follow(orbit, value)` returns the branch of an orbit at a value of the parameter.
+    `follow(orbit, value)` returns the branch through an orbit whose parameter is `value`.
     """
     for branch in branches:
         for edge in (0, -1):
