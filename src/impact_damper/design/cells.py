@@ -22,19 +22,19 @@ STREAMS = "search compared confirmed orbit forces masses repeated shocks searche
 # TOGETHER: `Motions.largest` runs motions of up to TOGETHER cells before it computes bounds again.
 DRAWN, FOLLOWED, TOGETHER = 4, 64, 8
 # A regime is a group of motions of one cell. The motions that have not settled are sorted by their
-# largest displacements. Neighbours are in one regime if the larger is up to APART x the smaller.
+# largest displacements. A new regime begins where a displacement exceeds APART x the one before.
 APART = 1.3
 # A block peak is the largest displacement of a motion in a block of BLOCK forcing cycles. From the
 # TAIL largest block peaks `return_level` extrapolates the largest displacement in HORIZON cycles.
 BLOCK, TAIL, HORIZON = 50, 50, 100_000
 # n is the sum of the forcing cycles of all motions of a regime. If n < POOLED, the largest
 # displacement of the regime is multiplied by 1 + MISSING x max(1, log2(POOLED/n)). If n >= POOLED,
-# it is extrapolated. If n >= MOST_POOLED, the motions of the regime are not run further.
+# this displacement is extrapolated. If n >= MOST_POOLED, the motions are not run further.
 POOLED, MOST_POOLED = 25_000, 200_000
 MISSING = 0.03
 # The run of a regime is divided into QUARTERS equal parts. The regime is steady if the largest
-# displacements in the parts differ by at most the fraction STEADY (ROUGH if gaps are compared). The
-# largest displacement is then not extrapolated, but multiplied by 1 + STEADY.
+# displacements in the parts differ by at most the fraction STEADY (ROUGH if gaps are compared).
+# The largest displacement of a steady regime is not extrapolated, but multiplied by 1 + STEADY.
 # The largest displacement of a settled motion is multiplied by 1 + SLACK.
 QUARTERS, STEADY, ROUGH, SLACK = 4, 0.002, 0.01, 0.001
 CHECKED = 100  # cycles of a test run before each longer run; it shows which motions settle
@@ -139,7 +139,7 @@ class Motions:
     def numbers(self, k, rough=False) -> tuple:
         """Return two arrays over the motions of cell k: displacement, and True if it is final.
 
-        It is final if the motion need not be run further. With `rough`, it is a coarse estimate.
+        A displacement is final if its motion need not be run further. With `rough` it is coarser.
         """
         sizes, known = (1 + SLACK) * self.peaks[k], self.settled[k].copy()
         for regime in self.regimes(k):
@@ -185,10 +185,10 @@ class Motions:
                 self.follow(k, next(each for each in self.regimes(k) if places[k] in each))
 
     def follow(self, k, regime) -> None:
-        """Run each motion of cell k in `regime` (indices) for as many blocks as it has run so far.
+        """Double the number of blocks that the motions of cell k in `regime` (indices) have run.
 
-        If no motion has run a block (see BLOCK), the motions are run for POOLED/2 cycles in total.
-        Displacements before the first block may be of transients, and are dropped.
+        If no motion has run a block (see BLOCK), run at least POOLED/2 cycles, all motions added
+        up. Drop displacements before the first block, which may be of transients.
         """
         loud = regime[~self._settle(k, regime)]
         if not len(loud):

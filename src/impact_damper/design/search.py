@@ -34,7 +34,7 @@ JUMP, SMOOTH, FINE = 1.3, 0.03, 0.004
 # CANDIDATE: a gap is a candidate if its tolerated displacement is at most CANDIDATE x S.
 # LEVEL: neighbouring candidates form a group. Around the best gap of each group there is a range.
 #   It ends where the tolerated displacement exceeds LEVEL x that of the best gap.
-# ALIKE: the widest range is chosen among those whose best gap has at most ALIKE x S.
+# ALIKE: a range is good if the tolerated displacement of its best gap is at most ALIKE x S.
 CANDIDATE, ALIKE, LEVEL = 1.15, 1.04, 1.05
 NOMINAL_GAPS = 4001  # number of nominal gaps whose tolerated displacements are computed
 # The gap near the middle of a range is rounded to DIGITS significant digits. If the rounded gap
@@ -69,7 +69,7 @@ class Curve:
 
         The displacement occurs at the frequency worst[i]. If the curve already has a displacement
         at a gap, the larger of both is kept, or with `replace` the new one. `close` is False in the
-        first search, which has few starts, and True in all later runs.
+        first search, which has few starts, and True otherwise.
         """
         for gap, size, frequency in zip(gaps, np.minimum(sizes, HUGE), worst, strict=True):
             k = int(np.searchsorted(self.gaps, gap * (1 - 1e-9)))

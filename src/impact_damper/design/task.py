@@ -297,7 +297,7 @@ class Task:
 
     @cached_property
     def resonances(self) -> list[float]:
-        """Resonances in the band, Hz: of the machine without loose mass, and with a fixed one."""
+        """Resonances in the band (Hz): machine alone, and machine with the loose mass fixed."""
         ratio = math.sqrt(1 + self.mass / self.machine.mass)
         found = [each for end in self.resonance for each in (end / ratio, end)]
         return [each for each in found if self.band[0] < each < self.band[1]]
@@ -341,7 +341,7 @@ class Task:
         return float(self.grid[np.argmax(self.bare)])
 
     def few(self, count, *others) -> np.ndarray:
-        """Return `count` frequencies of `grid`, `worst_frequency`, `resonances`, `others`; Hz."""
+        """Return frequencies: `worst_frequency`, `resonances`, `others`, and `count` of `grid`."""
         places = np.linspace(0, len(self.grid) - 1, count).round().astype(int)
         resonances = np.intersect1d(self.grid, self.resonances)
         return np.union1d(self.grid[places], [self.worst_frequency, *resonances, *others])

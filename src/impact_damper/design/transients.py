@@ -36,8 +36,8 @@ TOLERANCE = 1e-10
 # MOST_SWEPT: largest number of cycles in a sweep. If SWEEP gives more, the rate is raised.
 SWEEP, MOST_SWEPT = 4.0, 6000
 STEEPEST = 0.01  # largest relative change of the frequency of a sweep in a forcing cycle
-# Before each sweep the first frequency is held for at most HELD cycles. This time is so long that
-# transients of the machine without the damper decay to SETTLED x their initial amplitude.
+# Before each sweep the first frequency is held until transients of the machine without the damper
+# have decayed to SETTLED x their initial amplitude, but for at most HELD cycles.
 SETTLED, HELD = 0.01, 10**5
 # An unforced decay begins at a displacement A. It ends when the energy of machine and loose mass is
 # at most the energy of the machine alone at the displacement REST x A, or after MOST_WINDOWS
