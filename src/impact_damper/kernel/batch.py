@@ -1,9 +1,8 @@
 """Integrate many trajectories. One step advances LANES trajectories together, one in each lane.
 
-A lane is a place in the vectors with which the processor computes. All trajectories of one step
-must be in flight, or all must be in contact. Therefore a pool holds more trajectories than there
-are lanes, and has a queue for each kind of step: flight or contact, with a tangent or without. Each
-step takes trajectories from the longest queue. No trajectory changes the result of another one.
+All trajectories of one step must be in flight, or all must be in contact. Therefore a pool holds
+more trajectories than there are lanes, and has a queue for each kind of step: flight or contact,
+with a tangent or without. Each step takes trajectories from the longest queue.
 """
 
 from typing import NamedTuple
@@ -27,7 +26,8 @@ flight_step, contact_step = by_address(_MANY.flight_step), by_address(_MANY.cont
 flight_tangents = by_address(_MANY.flight_tangents)
 contact_tangents = by_address(_MANY.contact_tangents)
 SIZE, TANGENT_SIZE = _MANY.SIZE, _MANY.TANGENT_SIZE
-# Columns of `Pool.numbers`. Their indices are the indices of rows in the array of a step.
+# Columns of `Pool.numbers`. Column j has the numbers that belong into row j of the array of a step.
+# In this array row j begins at the index j * LANES.
 STATE, SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
     row // LANES
     for row in (_MANY.Y0, _MANY.SIDE, _MANY.TIME, _MANY.LONGEST, _MANY.TOLERANCE, _MANY.LENGTH)
@@ -37,7 +37,7 @@ STATE, SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
 class Pool(NamedTuple):
     """A pool of n trajectories. Each trajectory has its own end time.
 
-    numbers: Each trajectory's parameters, state and arguments of a step; shape (n, LENGTH).
+    numbers: A row for each trajectory: parameters, state, SIDE, TIME, LONGEST and TOLERANCE.
     ends: Times at which the integration of the trajectories ends; shape (n,).
     farthest: |Z1| beyond which a trajectory escapes (`equation.no_return`); shape (n,).
     tangents: A solution of the variational equations for each trajectory; shape (n, 4).
@@ -136,7 +136,11 @@ def choose(pool, chosen):
 
 @kernel_only
 def gather(pool, chosen, kind):
-    """Copy `chosen` trajectories into the lanes, but no parameters that a lane already holds."""
+    """Copy trajectories from the pool into the lanes.
+
+    `chosen` has the index of a trajectory for each lane. Parameters are not copied again if the
+    lane still has them. Tangents are copied if steps of this `kind` have tangents.
+    """
     for lane in range(LANES):
         m = chosen[lane]
         numbers = pool.numbers[m]
@@ -156,6 +160,8 @@ def gather(pool, chosen, kind):
 def scatter(pool, chosen, count, kind, arrived):
     """Copy trajectories from the lanes back into the pool. Queue unfinished trajectories again.
 
+    `chosen` has the index of the trajectory in each lane. The lanes from `count` on only repeat a
+    trajectory, and are not copied. Tangents are copied if steps of this `kind` have tangents.
     Return how many trajectories have ended. `arrived` receives the indices of these trajectories.
     A trajectory ends at its end time, or before, if it escapes (`equation.no_return`).
     """
@@ -191,10 +197,10 @@ def scatter(pool, chosen, count, kind, arrived):
 def raise_largest(pool, chosen, count, kind):
     """After a step, update `pool.largest`, the largest |Z1| of each chosen trajectory.
 
-    During the step |Z1| stays below `ends`, the larger of its values at both ends of the step, plus
-    `rise`. The largest |Z1| in the step is computed only if this bound exceeds `pool.largest`. In
-    contact `rise` is the sum of the moduli of the terms of Z1's Taylor series, without the constant
-    term. In flight `rise` follows from CHANGE, a bound on the change of Z1' in the step.
+    The largest |Z1| in the step is computed only if an upper bound on it exceeds `pool.largest`.
+    The bound is a sum. Its first term is |Z1| at the beginning or at the end of the step, whichever
+    is larger. Its second term is `rise`. In contact `rise` is the sum of the moduli of the terms of
+    Z1's Taylor series, without the constant term. In flight `rise` follows from the row CHANGE.
     """
     a, order = pool.a, CONTACT_ORDER if kind & 1 else FLIGHT_ORDER
     rise, series = np.zeros(LANES), np.empty(max(FLIGHT_ORDER, CONTACT_ORDER) + 1)

@@ -65,7 +65,8 @@ def number(x):
 def template(function, caller):
     """Return a function that executes the template `function`. Kernels can call it.
 
-    `caller` is a Python function that calls the returned function, and does nothing else.
+    `caller` is a Python function that calls the returned function by the name of a global variable.
+    This variable is set after `template` has returned. `compiling.compiled` compiles `caller`.
     """
 
     def generate(context, builder, signature, arguments):
@@ -89,7 +90,7 @@ def _is_llvm(value):
 
 
 def _compiled(module, function, arguments):
-    """Return a template as an LLVM function. Arguments that are Python numbers become constants."""
+    # Arguments are LLVM values, or Python numbers, which become constants in the LLVM function.
     name = f"{function.__module__}.{function.__name__}"
     name = ".".join([name, *(str(each) for each in arguments if not _is_llvm(each))])
     if name in module.globals:

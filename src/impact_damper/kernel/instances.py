@@ -37,10 +37,11 @@ CONTACT_ORDER = 23
 # STATE           the state Z1, Z1', Z2, Z2' at the beginning of the step, afterwards at its end
 # STEP            SIDE, TIME, LONGEST, TOLERANCE: arguments of the step; SIDE, LENGTH: results
 # SCRATCH, FREE   intermediate results
-# SERIES          Taylor coefficients, a row for each order k. E, H and D depend on parameters only:
+# SERIES          Taylor coefficients, a row for each order k:
 #   X  Z1                           Q  depth in a wall, Z2 - SIDE d0
 #   G  Z1'' without wall's force    U  slope of the spring's nonlinear force
-#   E  forcing over COSINE or SINE  H  DAMPING/k                       D  DASHPOT/k
+#   H  DAMPING/k                    D  DASHPOT/k
+#   E  forcing, divided by COSINE if k is even, and by SINE if k is odd
 # A tangent is a solution of the variational equations. Groups of a tangent's rows, in this order:
 # STATE           the tangent's Z1, Z1', Z2, Z2'
 # KEPT            the tangent's Z2 at the beginning of a step in which the loose mass sticks
@@ -108,7 +109,8 @@ def _source(writer):
     lines = "".join(f"{name} = {value}\n" for name, value in constants.items())
     templates = forcing, root_search, across, friction, contact, separation, step
     text = "\n\n".join([lines, writer.text(), *map(inspect.getsource, templates)])
-    # Kernels can call a function of a, or of a and d, after `branches.template` has wrapped it.
+    # Templates with the argument `a`, or `a` and `d`, are wrapped, so that kernels can call them.
+    # The pattern leaves out functions that begin with a loop: `straight` compiles them.
     pattern = r"^def (\w+)\((a|a, d)\):$(?!\n    for i in range\(\d+\):)"
     for name, arguments in re.findall(pattern, text, re.MULTILINE):
         text += f"\n\ndef call_{name}({arguments}):\n    {name}({arguments})\n"
@@ -120,8 +122,8 @@ def rows(flight_order, contact_order):
     """Return a dictionary with the index of each named row in the array of a step.
 
     A series has a row for each order. Its name stands for the first of these rows. PARTS is the
-    index of the first row of partial sums. Two entries are numbers of rows: ROWS is how many rows
-    the array of a step has, and TANGENT_ROWS is how many the array of tangents has.
+    first row of partial sums. Two entries are no indices: ROWS is the number of rows in the array
+    of a step, and TANGENT_ROWS is the number of rows in the array of tangents.
     """
     length = max(flight_order, contact_order) + 1
     single = {name: number for number, name in enumerate(SINGLE)}
@@ -157,10 +159,12 @@ class Writer:
         return f"d[{(self.rows.get(row, 0) + k) * self.tangents} + i]"
 
     def function(self, name, lines, tangent=False, first=(), side_by_side=4):
-        """Return the source code of a kernel that executes the lines of code `lines` for each lane.
+        """Return the source code of a kernel that executes the lines of code `lines`.
 
-        With one lane, the kernel may begin with other lines of code, `first`. A line of `first`
-        computes `side_by_side` numbers at once, in a vector of the processor.
+        The kernel has the argument `a`, and executes the lines for each lane. If `tangent` is true,
+        it has the arguments `a` and `d`, and executes the lines for each tangent. With one lane, it
+        may begin with other lines, `first`. Each line of `first` computes `side_by_side` numbers at
+        once, in a vector of the processor.
         """
         arguments, lanes = ("a, d", self.tangents) if tangent else ("a", self.lanes)
         text, calls = "", ""
@@ -182,7 +186,6 @@ class Writer:
         return self.function("constant_series", self._stored(chain.from_iterable(lines), "EHD"))
 
     def _computed(self, k, names):
-        """Yield lines that compute coefficient k of each series (E, H or D) in `names`."""
         factor = f"{1 / k!r} * " if k > 1 else ""
         if "E" in names and k < 2:
             beginning = [f"w = {self.at('FREQUENCY')}", "e0 = 1.0"], ["ww = w * w", "e1 = -w"]
@@ -194,14 +197,8 @@ class Writer:
             yield f"d{k} = {factor}{self.at('DASHPOT')}"
 
     def _constants(self, phase, tangent):
-        """Return the argument `constants` of `equation.motion`, or of `equation.tangent`.
-
-        With one lane, the lines that `constants(k)` returns load coefficients from the array. With
-        several lanes, the lines compute the coefficients, because each step of a lane can belong
-        to another trajectory.
-        """
         names = ("" if tangent else "E") + ("HD" if phase == "contact" else "H")
-        if self.lanes > 1:
+        if self.lanes > 1:  # a lane can get another trajectory before each step
             return lambda k: self._computed(k, names)
         return lambda k: [f"{name.lower()}{k} = {self.at(name, k)}" for name in names]
 
@@ -312,7 +309,8 @@ class Source(Writer):
             self.sums("flight_snap", "flight", "T", {"SNAP": "|G''|"}),
             self.sums("contact_jerk", "contact", "LENGTH", {"Z1_JERK": "|G'|"}),
             self.sums("contact_bound", "contact", "LENGTH", bound, self._tail("contact")),
-            # Upper bound on the change of Z1': sum of its terms' moduli, without the first term.
+            # CHANGE is an upper bound on |Z1'(t) - Z1'(0)| for 0 <= t <= T. It is the sum of the
+            # moduli of the terms of the series of Z1' at t = T, without the constant term.
             self.sums("flight_change", "flight", "T", {"CHANGE": "|X'|"}, changed, begin=2),
         ]
         return f"{IMPORTS}\n\n" + "\n\n".join(functions)
@@ -420,17 +418,13 @@ def _constants(*numbers):
 
 
 def _paired(c, result):
-    """Return a line of code that sets `result` to c[0] + ... + c[7] u^7 (Estrin's scheme)."""
+    """Return code that sets `result` to c[0] + ... + c[7] u^7, from the variables u and v = u^2."""
     low, high = (f"({a} + {b} * u) + ({c} + {d} * u) * v" for a, b, c, d in (c[:4], c[4:]))
     return f"{result} = ({low}) + ({high}) * (v * v)"
 
 
 def _sum(c, result, parts, done):
-    """Yield lines of code that set `result` to the sum of c[k] t^k, from four partial sums.
-
-    Each partial sum has every fourth term. `parts` are the partial sums of the first `done` terms.
-    The lines add the later terms in rising order, because their coefficients are computed last.
-    """
+    """Yield lines of code that set `result` to the sum of c[k] t^k, from four partial sums."""
     for j in range(4):
         yield f"part{j} = {parts[j]}"
         for k in range(done + j, len(c), 4):

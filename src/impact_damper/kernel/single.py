@@ -97,7 +97,8 @@ def extremum(c, order, length, start):
 def turning_time(c, order, begin, end, first, last):
     """Return the time, between `begin` and `end`, at which the slope of a polynomial is 0.
 
-    At `begin` the slope is `first`, and at `end` it is `last`.
+    The polynomial is c[0] + c[1] t + ... + c[order] t^order. Its slope is `first` at `begin` and
+    `last` at `end`. The signs of both slopes differ.
     """
     t = begin + (end - begin) * first / (first - last)
     for _ in range(4):
@@ -125,7 +126,7 @@ def write_trajectory(p, y, side, tolerance, a):
 
 @kernel_only
 def load(p, y, side, tolerance, a):
-    """Write a trajectory into a workspace, and the series that depend on the parameters p only."""
+    """Write a trajectory into a workspace. Update the series that depend on no more than p."""
     kept = True
     for i in (FREQUENCY, DAMPING, DASHPOT):
         kept = kept and a[PARAMETERS + i] == p[i]
@@ -136,7 +137,7 @@ def load(p, y, side, tolerance, a):
 
 @kernel_only
 def step_loaded(t, longest, a):
-    """Do a step with the trajectory in workspace a. Return the step's length and the side after."""
+    """Do a step of at most `longest` from time t. Return its length, and the side at its end."""
     a[TIME] = t
     a[LONGEST] = longest
     if a[SIDE] == 0.0:
@@ -160,10 +161,8 @@ def step(p, y, side, t, longest, tolerance, work):
     The step begins at the time t in the state y (4,). The state at the end replaces y. Return the
     step's length, and the side at its end. `work` is a `workspace()`. After the step it has the
     Taylor coefficients of Z1 from index X on. After a step in contact it also has the coefficients
-    of the depth Z2 - `side` d0 from index Q on.
-
-    If the motion has escaped (`equation.no_return`), the returned length is `longest`, because
-    steps on the way to infinity become ever shorter. The true length is `work[LENGTH]`.
+    of the depth Z2 - `side` d0 from index Q on. If the motion has escaped (`equation.no_return`),
+    the returned length is `longest`, and `work[LENGTH]` is the true length.
     """
     a = pointer(work)
     load(p, y, side, tolerance, a)
@@ -193,7 +192,10 @@ def state_in_step(work, side, y, t):
 
 @kernel_only
 def series_of_loose_mass(work, side, y, c):
-    """Fill c with the Taylor series of Z2 in the last step in `work`. Return the series' order."""
+    """Fill c with the Taylor series of Z2 in a step. Return the order of the series.
+
+    `work` is the workspace after the step, `side` the side in the step, and y the state before it.
+    """
     a = pointer(work)
     order = FLIGHT_ORDER if side == 0 else CONTACT_ORDER
     for k in range(order + 1):

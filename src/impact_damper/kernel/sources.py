@@ -32,10 +32,6 @@ def sources(*paths) -> set:
 
 @cache
 def _imports(path, packages):
-    """Return the files of `packages` that a Python file imports directly.
-
-    For `import a.b.c` return the file of a.b.c, but not the files `__init__.py` of a and a.b.
-    """
     # Only imports from `packages` are parsed, because parsing whole files takes much longer.
     statement = re.compile(
         rf"^ *((?:from|import) (?:{'|'.join(packages)})\b(?:[^(\n]*\([^)]*\)|[^(\n]*$))",

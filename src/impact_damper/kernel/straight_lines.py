@@ -1,8 +1,7 @@
 """Compile arithmetic without branches ("straight lines"), without numba's slow type inference.
 
 The Taylor series of a step take thousands of operations. numba's type inference needs a millisecond
-for each. Each lane holds one trajectory. With one lane, an instruction can operate on two numbers,
-a pair.
+for each. With one lane, an instruction can operate on two numbers, a pair.
 """
 
 import ast
@@ -57,7 +56,7 @@ def is_product(node):
 
 
 class _Lines(Body):
-    """Writes the LLVM code of assignments for the lanes of one vector, from lane `first` on."""
+    """Writes the LLVM code of assignments for `arithmetic.width` lanes, beginning with `first`."""
 
     def set(self, name, value):
         self.values[name] = value
@@ -71,7 +70,7 @@ class _Lines(Body):
             self.builder.store(value, self.pointer(target), align=8)
 
     def pointer(self, node):
-        """Return the pointer to the number `a[1]`, or to the vector of all lanes in `a[1 + i]`."""
+        """Return the pointer to the number `a[1]`, or to the first of the numbers `a[1 + i]`."""
         own = isinstance(node.slice, ast.BinOp)
         number = ir.Constant(OFFSET, (node.slice.left if own else node.slice).value)
         if own and self.first is not None:
@@ -127,11 +126,11 @@ class Arithmetic:
         self.type = FLOAT if width == 1 else ir.VectorType(FLOAT, width)
 
     def constant(self, value):
-        """Return a constant number, the same in all lanes."""
+        """Return an LLVM constant that has the Python number `value` in each lane."""
         return ir.Constant(self.type, value if self.width == 1 else [value] * self.width)
 
     def in_all_lanes(self, value):
-        """Return a number that is equal to the double `value` in all lanes."""
+        """Return a number that has the LLVM double `value` in each lane."""
         return value if self.width == 1 else self._repeated(value, self.width)
 
     def pair(self, first, second):

@@ -60,9 +60,8 @@ def step_with_tangents(p, y, tangents, side, t, longest, tolerance, work):
 def advance(p, y, tangents, side, t, end, tolerance, work):
     """Integrate a trajectory and its tangents from the time t to the time `end`.
 
-    The final state and tangents replace y and `tangents`. Return the side at the end, the number
-    of contacts that began, and the total time in contact. The integration ends early if the motion
-    escapes (`equation.no_return`).
+    The final state and tangents replace y and `tangents`. Return the side at the end, the number of
+    contacts that began, and the total time in contact. An escape ends the integration early.
     """
     contacts = 0
     touching = 0.0

@@ -79,7 +79,8 @@ def read_forced(system, damper, frequency, *, needs_damper=False) -> Model:
 def read_swept_damper(system, damper, frequency) -> Model:
     """Return the model for a sweep of the clearance. The damper's own clearance does not matter.
 
-    If `system` is an `Oscillator`, the damper may be a dictionary of its other parameters.
+    If `system` is an `Oscillator`, `damper` may also be a dictionary of mass_ratio and, optionally,
+    restitution and contact_stiffness.
     """
     if isinstance(system, Oscillator) and isinstance(damper, dict):
         allowed = {"mass_ratio", "restitution", "contact_stiffness"}
@@ -129,10 +130,10 @@ def read_span(scales, name, span, kind, **bounds) -> tuple[float, float]:
 
 
 def read_radius(scales, radius, whole_gap=False) -> float | None:
-    """Return the dimensionless radius of the ball, in the space of states, of random starts.
+    """Return the dimensionless radius of the ball of random starts, or None if `radius` is None.
 
-    If `radius` is None, return None, or raise an error if `whole_gap` is true. A radius of 0 is
-    allowed only if `whole_gap` is true.
+    If `whole_gap` is true, only Z1 and Z1' of a start lie in the ball, and the loose mass starts
+    anywhere in its gap. Then None is an error, and 0 is allowed. Otherwise 0 is an error.
     """
     if radius is None:
         if whole_gap:
@@ -164,8 +165,7 @@ def _components(scales, name, values, kinds, words):
 def read_state(model, state) -> np.ndarray:
     """Return the argument `state` of a public function as Z1, Z1', Z2, Z2', shape (4,).
 
-    Without a damper `state` may be Z1 and Z1' only; then Z2 = Z1 and Z2' = Z1'. Warn the user if
-    the modulus of Z2 exceeds 2 d0.
+    Without a damper Z1 and Z1' are enough; then Z2 = Z1 and Z2' = Z1'. Warn if |Z2| > 2 d0.
     """
     scales, damper = model.scales, model.damper
     if hasattr(state, "coords"):

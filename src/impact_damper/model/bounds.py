@@ -37,7 +37,6 @@ FURTHER_RANGE = {"least": 0, "most": 10**7}
 # Largest number of runs in one call of a function. Memory must hold the results of all runs.
 MOST_RUNS = 10**6
 RUNS_RANGE = {"least": 1, "most": MOST_RUNS}
-# Range of the number of cycles in a run (argument `periods`).
 PERIODS_RANGE = {"least": 1, "most": 10**6}
 # Range of the number of cycles in a run that measures how long chaos lasts.
 LIFETIME_RANGE = {"least": 100, "most": 10**7}
@@ -48,7 +47,6 @@ FARTHEST, FASTEST = 1e3, 1e6
 HARMONIC_RANGE = {"least": 1, "most": 2**14}
 PACKAGE = f"{__name__.partition('.')[0]}."
 POINTS_RANGE = {"least": 2, "most": 10**5}
-# Range of the tolerance of integrators that are compared with each other.
 METHOD_TOLERANCE_RANGE = TOLERANCE_RANGE | {"most": 0.1}
 
 
@@ -61,7 +59,7 @@ def warn(text) -> None:
 
 
 def unlabelled(name, value):
-    """Return the number in a dimensionless array of one number. Return other values unchanged."""
+    """Return `value` or, if it is an array of shape (), the number in it. Units are an error."""
     if getattr(value, "ndim", None) != 0 or not hasattr(value, "item"):
         return value
     units = getattr(value, "attrs", {}).get("units", "1")
@@ -81,8 +79,7 @@ def check_number(
     """Return `value` as a float, or raise an error if it is not allowed.
 
     Raise TypeError for a value that is no real number, such as True. Raise ValueError if the value
-    is not finite, or is out of bounds. The message shows the text `given` in place of the value, if
-    `given` is not empty.
+    is not finite, or is out of bounds. The message shows `given`, if not empty, for the value.
     """
     value = unlabelled(name, value)
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
@@ -128,7 +125,10 @@ def check_frequency(value):
 
 
 def check_starts(starts, points, least=1):
-    """Raise an error if the number `starts`, at each of `points` parameter values, is too large."""
+    """Raise an error if `starts` is below `least`, or if all runs are more than MOST_RUNS.
+
+    There are `starts` runs at each of `points` parameter values. `least` is always allowed.
+    """
     most = max(least, MOST_RUNS // points)
     check_count("starts", starts, least=least, most=most, why=f"memory holds {MOST_RUNS} runs")
 

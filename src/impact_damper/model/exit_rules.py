@@ -5,10 +5,9 @@ the wall, z the damping ratio, and u + 2 z u' the force of the wall. The unit of
 n is the natural frequency of the contact.
 
 By the rule `zero_penetration` (of the paper) a contact ends when u = 0. Equation (25) gives z. If
-z > 0, the wall pulls the loose mass at the end of the contact. By the rule `no_tension` a contact
-ends when the force of the wall falls to 0. If z < 1, the restitution is exp(-(pi - 2 A) tan A) with
-z = sin(A) (Schwager and Poeschel, Physical Review E 78, 2008, 051304). If z > 1, the restitution is
-exp(-2 B coth B) with z = cosh(B).
+z > 0, the wall pulls at the end. By the rule `no_tension` a contact ends when the force of the wall
+falls to 0. If z < 1, the restitution is exp(-(pi - 2 A) tan A) with z = sin(A) (Schwager and
+Poeschel, Physical Review E 78, 2008, 051304). If z > 1, it is exp(-2 B coth B) with z = cosh(B).
 """
 
 import math

@@ -31,8 +31,8 @@ def facts_of(parameter) -> tuple:
 def read_followed(model, parameter, span) -> tuple:
     """Check `parameter` and `span`. Return the key in PARAMETERS and the dimensionless span.
 
-    `parameter` is the name that the user gives, for a `Machine` the machine's name. The model's own
-    value of the parameter must lie in the span.
+    `parameter` is a key in PARAMETERS or, for a machine, the name that `facts_of` returns. For
+    example, "clearance" is "gap" for a machine. The model's value must lie in the span.
     """
     scales, damper = model.scales, model.damper
     names = {facts_of(name)[0] if scales.si else name: name for name in PARAMETERS}
@@ -52,11 +52,12 @@ def read_followed(model, parameter, span) -> tuple:
 
 
 def family_of(oscillator, damper, frequency, parameter, span):
-    """Return the packed parameters as a function of a coordinate, and values of the coordinate.
+    """Return three results for a system whose `parameter` varies over a `span`.
 
-    The coordinate is the value of `parameter`, or the logarithm of this value if `parameter` is not
-    in LINEAR. The second result is the coordinate of the given system. The third result is a pair,
-    the coordinates of both ends of `span`. Raise ValueError if the contact at an end is too stiff.
+    The parameter is expressed by a coordinate. For parameters in LINEAR, such as the frequency, the
+    coordinate is the parameter's value. For others it is the logarithm of the value. The results
+    are a function that returns the packed parameters at a coordinate, the coordinate of the given
+    system, and a pair: the coordinates of both ends of the span. Too stiff a contact is an error.
     """
     part = {None: None, Oscillator: oscillator, Damper: damper}[PARAMETERS[parameter]]
     value = frequency if part is None else getattr(part, parameter)

@@ -109,9 +109,9 @@ class HertzContact:
         return Impact(q, self.coefficient * q**1.5, DURATION * q / speed)
 
     def stiffness(self, speed, mass) -> float:
-        """Return the stiffness k (N/m) of a linear spring that an impact compresses as far.
+        """Return the stiffness k (N/m) of a linear spring that could replace the contact.
 
-        k q^2 = m v^2, with q, m and v as in `compression`. The largest force of the spring, k q, is
-        4/5 of the largest force of the contact.
+        An impact compresses spring and contact by the same q: k q^2 = m v^2, with q, m and v as in
+        `compression`. The spring's largest force, k q, is 4/5 of the contact's largest force.
         """
         return 0.8 * self.coefficient * self.compression(speed, mass) ** 0.5

@@ -1,4 +1,4 @@
-"""Find the machine that fits a measured curve. Functions import the slow NumPy and SciPy."""
+"""Find the machine that fits a measured curve. Only functions import NumPy and SciPy."""
 
 import csv
 import re
@@ -12,16 +12,17 @@ from impact_damper.model.units import QUANTITIES, check_si
 COLUMN = re.compile(r"\s*([a-z]+)[\s_\[(]+([^\s\])]+)[\])]?\s*")
 FEWEST = 20
 SPRING = ("linear_stiffness", "damping", "cubic_stiffness")
-# `from_response` makes PASSES fits in turn. It divides residuals by a slope of at least FOLD.
+# `from_response` makes PASSES fits in turn. It divides R, defined in its docstring, by (s^2 +
+# FOLD^2)^(1/2) with s = dR/d ln a, because s is almost 0 near a jump of the response.
 FOLD, PASSES = 0.1, 6
 
 
 class Identified(NamedTuple):
     """A machine found by a fit, and the uncertainties of its values.
 
-    `uncertainties` has the standard uncertainty of each fitted field of the machine in SI units, if
-    the errors of the samples are independent and equally large. `noise` is the standard deviation
-    of the residuals, in m for a decay, and relative for a response. `ended` says how the fit ended.
+    `uncertainties` has the standard uncertainty, in SI units, of each fitted field of `machine`. It
+    is assumed that the errors of the samples are independent and equally large. `noise` is the
+    standard deviation of the residuals, in m for a decay, and relative for a response.
     """
 
     machine: object
@@ -130,7 +131,6 @@ def from_response(cls, data, *, force) -> Identified:
 
 
 def _fit(residuals, guess, scale):
-    """Return fitted parameters, their standard errors, the residuals' scatter, and a message."""
     import numpy as np
     from scipy.optimize import least_squares
 
@@ -151,7 +151,10 @@ def _fit(residuals, guess, scale):
 
 
 def _free(time, parameters):
-    """Return displacements of unforced masses of 1 kg: rows are times, columns are the masses."""
+    """Return x of unforced motions x'' + c x' + k x + k3 x^3 = 0, one motion in each column.
+
+    `parameters` has a column for each motion: k, c, k3, and x and x' at the first time.
+    """
     import numpy as np
     from scipy.integrate import solve_ivp
 
@@ -171,7 +174,7 @@ def _free(time, parameters):
 
 
 def _decay(time, measured):
-    """Return first guesses for the 6 parameters of a decay, and the typical size of each."""
+    """Return guesses for k/m, c/m, k3/m, x(0), x'(0) and offset, and the typical size of each."""
     import numpy as np
     from scipy.signal import hilbert
 

@@ -24,7 +24,7 @@ MOST_DAMPING = 0.99
 
 
 class Derived(float):
-    """A value that a machine computed from its other fields, and computes again in a copy."""
+    """Number that a machine computes from its given fields. A changed copy computes it again."""
 
 
 @bounds.names_arguments
@@ -95,11 +95,12 @@ class Machine:
     Each value is a number in the SI unit, text with units such as "12 kg", or a quantity of pint;
     the fields hold numbers. The restoring force at the deflection x is
     linear_stiffness x + cubic_stiffness x^3, where x is 0 at rest under the machine's weight. The
-    natural frequency may be given in place of the linear stiffness. Give one of damping_ratio,
-    quality_factor and damping, and one excitation. Functions that take a machine take frequencies
-    in Hz and states in m and m/s, and return datasets in mm, Hz, N, m/s and s. At the angular
-    frequency w, an unbalance exerts a force of the amplitude unbalance w^2. On a moving base,
-    displacements are relative to the base, and the base's acceleration acts on both masses.
+    natural frequency may be given in place of the linear stiffness. The damping must be given by
+    one of damping_ratio, quality_factor and damping. The excitation must be given by one of force,
+    base_displacement, base_acceleration and unbalance. An unbalance exerts a force whose amplitude
+    is w^2 times `unbalance`, at the angular frequency w. On a moving base, displacements are
+    relative to the base, and the base's acceleration acts on both masses. Functions that take a
+    machine take frequencies in Hz and states in m, m/s. Their datasets have mm, Hz, N, m/s and s.
 
     Raises
     ------
@@ -245,7 +246,6 @@ class Machine:
         return Scales(length, time, self.mass, si=True)
 
     def _static_deflection(self):
-        """Return the static deflection (m) under a force, or a similar length if there is none."""
         stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
         if self.force:
             return static_deflection(self.force, stiffness, cubic)
@@ -357,8 +357,7 @@ def mounting(
     `inclination` (radian, or text such as "90 deg") is the angle of the gap to the horizontal, by
     default 0. `gravity` may be given instead. `normal_force` (N) presses the loose mass on its
     floor; the default is the weight's component normal to the gap. The friction is this force times
-    `friction_coefficient`. `friction` may be given instead of both. Raise ValueError for values
-    that exclude each other.
+    `friction_coefficient`. `friction` may be given instead of both.
     """
     mass = check_si("mass", mass, "mass", above=0)
     coefficient = check_si("friction_coefficient", friction_coefficient, "number", **FRICTIONS)

@@ -15,8 +15,9 @@ from impact_damper.model.units import UNITLESS, Scales
 def parameter(limits, kind, symbol, meaning, *, machine=None, power=None, **default):
     """Return a dataclass field for a dimensionless parameter. The field's metadata describe it.
 
-    `kind` is a key of `units.QUANTITIES`. `machine` is the parameter's name in a `Machine`, if this
-    is another name. A coefficient of the spring has a `power`, the exponent of Z1 in its term.
+    `limits` are the bounds of the value. `kind` is a key of `units.QUANTITIES`. `machine` is given
+    if the parameter has another name in `Machine` or `MachineDamper`, and is that name. `power` is
+    given for a coefficient of the spring, and is the exponent of Z1 in its term.
     """
     facts = {"bounds": limits, "kind": kind, "symbol": symbol, "machine": machine, "power": power}
     return field(metadata=facts | {"meaning": f"{symbol}, {meaning}"}, **default)
@@ -209,7 +210,8 @@ class Damper:
 def beyond_closed_forms(oscillator, damper) -> list:
     """Return which of the parameters gravity, friction and base are not 0.
 
-    Each is returned as a pair: `damper` or `oscillator`, to which it belongs, and its name.
+    The list has a pair for each of them. The first entry of the pair is the object that has the
+    parameter, `damper` or `oscillator`. The second entry is the parameter's name.
     """
     terms = (damper, "gravity"), (damper, "friction"), (oscillator, "base")
     return [(part, name) for part, name in terms if getattr(part, name)]
@@ -225,7 +227,7 @@ def check_closed_form(oscillator, damper):
 
 
 def parameters_in(part) -> list:
-    """Return the fields of a dataclass, or of an instance of it, whose type is float or int."""
+    """Return the float and int fields of `part`, a dataclass or an instance of a dataclass."""
     return [each for each in fields(part) if each.type in (int, float)]
 
 

@@ -16,9 +16,10 @@ class Settling:
     tolerance : float
         Largest local error in a step of the integrator, dimensionless.
     patience : int
-        Number of forcing cycles after which a run is stopped in two cases: the motion is chaotic
-        with a Lyapunov exponent above 0.05 (per unit of T), or the loose mass has touched no wall
-        during these cycles and hardly moves.
+        Number of forcing cycles after which a run is stopped if the motion is chaotic with a
+        Lyapunov exponent above 0.05 (per unit of T). A run is also stopped if the primary mass is
+        on an orbit, and the loose mass has touched no wall for this number of cycles, and drifts by
+        less than 1 % of the clearance in `limit` cycles.
     limit : int
         Number of forcing cycles after which every run that is left is judged. If chaos is certain,
         the outcome is chaotic. The outcome is drifting if two conditions hold: the primary mass is

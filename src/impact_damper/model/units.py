@@ -143,7 +143,7 @@ def absolute_value(value, quantity) -> float | None:
 
 
 def physical(quantity, meaning="", **others):
-    """Return a dataclass field for a quantity. `others` are its SI bounds, maybe its `default`."""
+    """Return a dataclass field. `others` are bounds of its value in SI units, and its default."""
     default = {key: others.pop(key) for key in ("default",) if key in others}
     unit = QUANTITIES[quantity].unit
     facts = {"quantity": quantity, "bounds": others, "meaning": meaning}
@@ -154,7 +154,7 @@ optional = partial(physical, default=None)
 
 
 def convert(part) -> None:
-    """Convert the fields that `physical` made to SI units. Optional fields may stay None."""
+    """Convert fields that are physical quantities to SI units. Optional fields may be None."""
     for each in fields(part):
         value = getattr(part, each.name)
         if "quantity" in each.metadata and not (value is None and each.default is None):

@@ -93,8 +93,7 @@ def find_return(a):
 
     Let q be |Z2| - d0 at this wall, and f = q + LAG q'. Two kinds of contact are possible:
 
-    - f rises to zero while q > 0. The loose mass meets this wall before the wall is back at d0, and
-      MODE becomes MET_DEEP.
+    - f rises to zero while q > 0, before this wall is back at d0. MODE becomes MET_DEEP.
     - |Z2| reaches d0 from inside, at this or at the opposite wall. MODE becomes MET.
 
     WALL, T, END_Z1 and END_Z1_SLOPE are set as in `find_contact`. No search is needed if f falls

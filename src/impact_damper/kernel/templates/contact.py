@@ -66,20 +66,19 @@ def guess_contact(a):
 def find_contact(a):
     """Move T to the first time in [0, T] at which |Z2| reaches the clearance d0 from inside.
 
-    - If there is such a time, MODE becomes MET, and WALL becomes the wall in contact.
-    - If there is certainly no such time, MODE becomes MISSED, and T keeps its value.
-    - If APART > 0, MODE becomes MISSED without a search. The loose mass sticks, or
-      `across.find_return` searches later.
-
-    END_Z1 and END_Z1_SLOPE hold Z1 and Z1' at T, before the call and after it. If T < LENGTH before
-    the call, `expect_contact` expects a contact at T or slightly later.
+    If there is such a time, MODE becomes MET, and WALL becomes the wall in contact. Otherwise MODE
+    becomes MISSED, and T keeps its value. END_Z1 and END_Z1_SLOPE hold Z1 and Z1' at T, before the
+    call and after it. `flight_step` has called `expect_contact` before. If that function expects a
+    contact, T < LENGTH, and the contact is expected at T or slightly later. APART is positive if
+    the loose mass sticks, or if the flight begins at |Z2| > d0. In these cases MODE becomes MISSED
+    without a search. In the second case `across.find_return` searches later.
 
     Bounds decide most flights without a search. `change` is an upper bound on the change of Z2' in
     the flight. The wall ahead is the wall that the loose mass approaches at the beginning.
 
-    - `clear` is true if the loose mass cannot reach the wall ahead. Z2 as a function of time
-      deviates by at most `sag` from the straight line that joins its values at 0 and at T. Both
-      values are more than `sag` away from the wall ahead.
+    - `clear` is true if the loose mass cannot reach the wall ahead: the values of Z2 at 0 and at T
+      are more than `sag` away from this wall. Z2 as a function of time deviates by at most `sag`
+      from the straight line between both values.
     - `left` is true if the loose mass cannot reach the wall behind. The mean of two lower bounds on
       the distance to this wall is positive. One bound follows from the straight line, the other
       from `change` and Z2' at the beginning.
@@ -142,9 +141,10 @@ def exclude_contacts(a):
     """Set MODE to MISSED in lanes whose loose mass certainly meets no wall in [0, T].
 
     Return how many lanes are still undecided. Let the cubic polynomial C have the values and slopes
-    of Z2 at the times 0 and T. Then |Z2 - C| is at most `most` = T^4 max|Z2''''| / 384. On each
-    half of [0, T] the moduli of four Bernstein coefficients bound |C|. They bound |Z2| if `most` is
-    added to the modulus at T/2, and 4/3 `most` to the modulus of the coefficient on each side.
+    of Z2 at the times 0 and T. Then |Z2 - C| is at most `most` = T^4 max|Z2''''| / 384. In each
+    half of [0, T], C has four Bernstein coefficients, and |C| is at most their largest modulus.
+    Both halves share the coefficient at T/2. To bound |Z2|, `most` is added to the modulus of this
+    coefficient, and 4/3 `most` to those of the coefficients just before and just after it.
     """
     flight_snap(a)
     undecided = 0

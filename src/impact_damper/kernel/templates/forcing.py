@@ -3,8 +3,8 @@
 # QUARTER + QUARTER_REST is pi/2. QUARTER has few binary digits, so that its multiples are exact.
 QUARTER = 1.5707963267341256
 QUARTER_REST = 6.077100506506192e-11
-# If the phase W t changes by less than NEAR (rad), `forcing` corrects COSINE and SINE by the
-# addition theorem, with Taylor polynomials of third degree. Otherwise it computes both anew.
+# If the phases W t at t = TIME and t = KNOWN differ by less than NEAR (rad), `forcing` corrects
+# COSINE and SINE by the addition theorem, with Taylor polynomials of third degree.
 NEAR = 1e-4
 
 
@@ -43,7 +43,7 @@ def find_forcing(a):
 def forcing(a):
     """Compute COSINE = A cos(W t) and SINE = A sin(W t) at the time t = TIME. A is F + U W^2.
 
-    With one lane, if KNOWN is close to TIME, correct the COSINE and SINE at the time KNOWN.
+    With one lane, if KNOWN is close to TIME, correct the values that belong to the time KNOWN.
     """
     t = a[FREQUENCY] * (a[TIME] - a[KNOWN])
     if LANES > 1 or not abs(t) < NEAR:

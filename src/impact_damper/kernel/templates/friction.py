@@ -128,7 +128,7 @@ def find_turn(a, touching):
 
 
 def step_to_turn(a, i, touching):
-    """Do a step of the search of `find_turn` in lane i: move T to the next time, or end it."""
+    """Continue the search of `find_turn` in lane i: move T to the next time, or end the search."""
     t, bound = a[T + i], a[BOUND + i]
     stuck = a[STUCK + i] > 0.0
     if touching:

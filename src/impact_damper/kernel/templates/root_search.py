@@ -8,7 +8,7 @@ contact f is q + LAG q' (`separation`). The contact ends at the root of f. Value
     BRACKET   at most one root is possible. Chebyshev's method finds it, secured by bisection.
     ENDING    the search has reached the end of the step without a root.
     MET       the root has been found.
-    MISSED    certainly no root is in the step, or `across.find_return` searches for it later.
+    MISSED    no root is in the step, or the search (`across.find_return`) has not yet begun.
     MET_DEEP  a contact begins at |Z2| > d0, before the wall is back (`across.find_return`).
     TURNED    before the root, the loose mass stops or begins to slide (`friction.find_turn`).
 """
@@ -40,9 +40,9 @@ def march_step(t, f, closing, ahead, length, fine):
     """Return two numbers: the next time and the next mode of a search in mode MARCH.
 
     `f` is the value of the event function at the time t, and `fine` its rounding error. `closing`
-    is true if the function decreases at t. It has no root between t and t + `ahead`. The time t is
-    the root if the function decreases, and `f` <= `fine` or t + `ahead` = t. The search ends at the
-    time `length`.
+    is true if the function decreases at t. The function has no root between t and t + `ahead`. The
+    search ends at the time `length`. If the function decreases at t, then t is the root in two
+    cases: `f` is at most `fine`, or t + `ahead` is rounded to t.
     """
     met = closing and (f <= fine or t + ahead == t)
     ends = not t + ahead < length
@@ -56,7 +56,11 @@ def chebyshev(first, bend):
 
 
 def is_last_move(a, i, move, rate):
-    """Return whether the root is accurate after a `move`. Its error is about (rate move)^3."""
+    """Return whether the root's estimated error is small enough to end a search after a `move`.
+
+    The estimate is |r move|^3, a number without a unit. `move` is a change of the time, and r is
+    2/LENGTH or `rate`, whichever is larger. `rate` says how fast f' changes: |f''/f'| in flight.
+    """
     turn = max(rate, 2.0 / a[LENGTH + i]) * move
     return abs(turn * turn * turn) <= max(LAST_MOVE * a[TOLERANCE + i], ROUNDING)
 
@@ -70,8 +74,7 @@ def bracketed_step(a, i, t, f, first, bend, rate, fine):
     A move that would leave the interval from LOW to HIGH is replaced by bisection.
 
     `first` is an estimate of the move to the root, such as a Newton step. `bend` is the part of f''
-    that `first` neglects, divided by f'. `rate` is the natural frequency of a contact, and 0 in
-    flight.
+    that `first` neglects, divided by f'. `rate` is a contact's natural frequency, or 0 in flight.
     """
     low = a[LOW + i] = t if f > 0.0 else a[LOW + i]
     high = a[HIGH + i] = a[HIGH + i] if f > 0.0 else t

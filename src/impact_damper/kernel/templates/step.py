@@ -4,22 +4,20 @@ The trajectories of a step are all in flight or all in contact. A trajectory's s
 event or before. Events: a contact begins or ends, or the loose mass stops or begins to slide.
 
 The files in this folder are templates. `instances.instance` joins them into one module. A module
-has a fixed number of lanes. Each lane holds one trajectory. The module begins with imports,
-constants, and the functions that `instances.Source` writes. The array `a` holds all numbers of the
+has a fixed number of lanes. Each lane holds one trajectory. The array `a` holds all numbers of the
 trajectories, the array `d` all numbers of their tangents. A name in capitals, such as Y0, is the
 index in `a` at which a row begins: a[Y0 + i] belongs to lane i. `instances` describes the rows.
 """
 
 # The 64 bits of the float 1.0, read as an integer.
 ONE = 1023 << 52
-# The last terms of the series of Z1' and Z2' in a step should be below SAFETY * tolerance * max(1,
-# |Z1|, |Z1'|, ...). With 0.05 the errors of settled motions are below 10 times the tolerance.
+# The last terms of the series of Z1' and Z2' in a step should be below SAFETY * tolerance * SCALE.
+# SCALE is the largest of 1, |Z1| and |Z1'|, in contact also of |Z2'|. With SAFETY = 0.05 the errors
+# of settled motions are below 10 times the tolerance.
 SAFETY = 0.05
-# The length that `predict_length` gives a flight is not exact. The flight is shortened only if the
-# last terms of its series exceed EXCESS times the size wanted, `largest_tail`.
+# A flight is shortened only if the last terms of its series exceed EXCESS times `largest_tail`.
 EXCESS = 4.0
-# A step in flight that begins at |Z2| > d0, while the wall is still coming back to d0, lasts
-# at most OUTSIDE times LAG. In the time LAG the wall's displacement falls to 1/e of its value.
+# A step in flight that begins at |Z2| > d0 lasts at most OUTSIDE times LAG.
 OUTSIDE = 2.0
 # If the loose mass is nearer to a wall than NEAREST times d0 and approaches it, and if the step is
 # so short that TIME + T equals TIME, the step ends in contact with this wall.
@@ -36,8 +34,7 @@ def limit_length(a, series, order, excess):
 
     Only lanes whose TAIL exceeds `excess` times `largest_tail` are changed. The coefficients c[k]
     of the displacement stand in the rows from `series` on, and the highest k is `order`. The term
-    k c[k] t^(k-1) of the velocity has the modulus `largest_tail` at a time t. An approximate
-    logarithm (`branches.bits`) gives this t with an error of a few per cent.
+    k c[k] t^(k-1) of the velocity has the modulus `largest_tail` at a time t.
     """
     for i in range(LANES):
         most = bits(largest_tail(a, i))
@@ -54,8 +51,7 @@ def predict_length(a):
 
     Let x[k] be the Taylor coefficients of Z1. It is assumed that |k x[k]| = SCALE / r^(k-1). SCALE
     is the largest of 1, |Z1| and |Z1'|. Each of the orders k = EARLY, EARLY + 1 and EARLY + 2 gives
-    a value of r. With the smallest r, LENGTH is the time at which the last term of Z1' reaches
-    `largest_tail`.
+    an r. With the smallest r, the last term of Z1' reaches `largest_tail` at the time LENGTH.
     """
     last = FLIGHT_ORDER - 1
     for i in range(LANES):
