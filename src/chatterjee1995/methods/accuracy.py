@@ -152,7 +152,6 @@ def _errors(scene, settings, reference):
 
 
 def _status(ended, wrong):
-    """Return the flag `run_status`. `wrong` > 0 means too many contacts, `wrong` < 0 too few."""
     if ended != "ended":
         return flag("run_status", ended)
     if wrong == 0:

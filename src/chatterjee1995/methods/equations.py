@@ -47,7 +47,7 @@ def rate_under(p, side, drive, y):
 
 @kernel_only
 def rate_by_position(p, drive, y):
-    """Return the derivative of the state y. If |Z2| > d0, the loose mass presses a wall."""
+    """Return dy/dT under an external force `drive`. If |Z2| > d0, the loose mass presses a wall."""
     return rate_under(p, wall_at(p, y[2]), drive, y)
 
 

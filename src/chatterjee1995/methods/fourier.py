@@ -71,7 +71,6 @@ def _beyond(coefficients, harmonics, level, wall):
 
 
 def _cells(function, coefficients, harmonics, ends, values):
-    """Return (begin, end) of small cells, in each of which `function` changes its sign once."""
     bound = 2 * np.sum(harmonics**2 * np.abs(coefficients))
     lower, upper, first, last = ends[:-1], ends[1:], values[:-1], values[1:]
     crossed = []
@@ -92,7 +91,7 @@ def _cells(function, coefficients, harmonics, ends, values):
 
 
 def indicator(rows, orders) -> np.ndarray:
-    """Return Fourier coefficients of the function that is 1 in the intervals `rows`, else 0."""
+    """Let f be 1 in the intervals `rows`, else 0. Return its harmonics k in `orders`, k >= 0."""
     _, begin, end = rows.T[:, :, None]
     half = (end - begin) / 2
     turn = np.exp(-0.5j * orders * (begin + end))

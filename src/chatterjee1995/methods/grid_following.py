@@ -12,7 +12,7 @@ SHORTEST = 1 / 32  # shortest step along a line between two points, divided by t
 def follow_line(
     correct, first, last, orbit, *, shortest=SHORTEST, extrapolating=False, behind=None
 ) -> Followed:
-    """Follow an orbit while its parameters move on a straight line from `first` to `last`."""
+    """Call `follow` with these arguments, for parameters on a line from `first` to `last`."""
 
     def correct_at(fraction, guess):
         return correct((1 - fraction) * first + fraction * last, guess)

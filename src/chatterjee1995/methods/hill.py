@@ -8,23 +8,24 @@ from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigs
 
 # With more than DENSE unknowns, only the 4 * COPIES eigenvalues nearest to 0 are computed.
 DENSE, COPIES = 100, 3
-# Each exponent is found several times, in copies that differ by 2 i W. The copy with -W < Im <= W
-# is kept. EDGE * W is the largest rounding error of Im that does no harm.
+# Each exponent is found several times, in copies that differ by 2 i W, since the linearised
+# equations repeat after half a cycle. The copy with -W < Im <= W is kept. EDGE * W is the largest
+# rounding error of Im that does no harm.
 EDGE = 1e-2
 
 
 class Exponents(NamedTuple):
-    """Floquet exponents per unit of T, in the order of their real parts.
+    """Floquet exponents per unit of T in the order of their real parts: 2, or 4 with a damper.
 
-    There are 2 exponents, or 4 with a damper. The status is "not_separated" if more or fewer
-    values have -W < Im <= W. If the status is not "found", all exponents are NaN.
+    The status is "found", "not_converged" if the search for eigenvalues fails, or "not_separated"
+    if it finds another number of exponents. In the last two cases all exponents are NaN.
     """
 
     values: np.ndarray
     status: str
 
     def multipliers(self, time) -> np.ndarray:
-        """Return the Floquet multipliers exp(lambda time), where lambda are the exponents."""
+        """Return the Floquet multipliers exp(exponent * time). `time` is the orbit's period."""
         return np.exp(self.values * time)
 
 
@@ -38,7 +39,6 @@ def exponents(solution) -> Exponents:
         copies = _near_zero(*(balance.operator(orbit, contacts, power) for power in range(3)))
     except ArpackNoConvergence:
         return Exponents(unknown, "not_converged")
-    # The linearised equations repeat after half a cycle. So copies of an exponent differ by 2 i W.
     height = copies.imag / balance.frequency
     inside = np.where(height > 1 - EDGE, copies.real + 1j * balance.frequency, copies)
     inside = inside[(height > -1 + EDGE) & (height < 1 + EDGE)]

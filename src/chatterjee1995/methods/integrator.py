@@ -86,8 +86,8 @@ class Integrator:
     def touches(self, p, state, levels, resolution):
         """Return for each clearance in `levels` whether the integrator finds a contact.
 
-        By default return None. Then it counts as a contact if a |Z2| from `flight` is larger than
-        the clearance.
+        By default return None. The caller then decides: the integrator finds a contact if `flight`
+        returns a |Z2| larger than the clearance.
         """
 
     def largest_displacements(self, p, start, begin, periods, steps) -> np.ndarray:
@@ -96,7 +96,7 @@ class Integrator:
 
 
 def read_off(p, work, times, ends):
-    """Return the `Run` of a motion whose steps end at `times`, in the states `ends`."""
+    """Return a `Run` whose steps end at `times` in the states `ends`, after `work` operations."""
     at, peaks = _turning_points(p, times, ends)
     began = _beginnings(p, times, ends)
     return Run("ended", work, ends[-1], began, at, peaks, float(np.max(peaks)))
@@ -125,7 +125,6 @@ def _turning_points(p, times, ends):
 
 
 def _quintics(p, times, ends, index, steps):
-    """Return for each of `steps` a polynomial (a column) that interpolates a state component."""
     rates = [
         np.array([rate(p, wall_at(p, ends[k, 2]), times[k], tuple(ends[k])) for k in at])
         for at in (steps, steps + 1)

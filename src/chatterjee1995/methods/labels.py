@@ -7,7 +7,6 @@ from chatterjee1995.methods.integrators import integrators, runs_of_accuracy
 ERRORS = ("amplitude", "state", "contact_time", "contacts")
 STATISTICS = ("contact_rate", "displacement", "exponent")
 
-# Titles of the models in `orbit_models`.
 MODELS = {
     "rigid": "rigid impacts",
     "rigid_mended": "rigid, corrected",

@@ -125,10 +125,7 @@ class Balance:
 
 
 def _convolution(coefficients, harmonics):
-    """Return the matrices A and B of a product with the series that has these `coefficients`.
-
-    If another series has the coefficients z, the product has the coefficients A z + B conj(z).
-    """
+    """Return A and B. The series z times the series `coefficients` is A z + B conj(z)."""
     two_sided = np.concatenate([coefficients[:0:-1].conj(), coefficients])
     zero = len(coefficients) - 1
     column = harmonics[:, None]
@@ -193,7 +190,7 @@ def solve(balance, start) -> Solution:
 
 
 def single_term(oscillator, damper, frequency) -> np.ndarray:
-    """Return coefficients of the smallest solution of (7), or, if free, of the largest solution."""
+    """Return coefficients of the smallest solution of (7), or without a damper of the largest."""
     if damper is None:
         free = main_solutions(oscillator, frequency)
         return free.amplitude[-1:, None] * np.exp(1j * free.phase[-1]) / 2

@@ -45,6 +45,8 @@ def missed_contacts(
 ):
     """Return a dataset with the numbers of contacts near grazing that integrators find and miss.
 
+    `passages` motions begin at random states in a ball of the given `radius`. In turn the wall is
+    placed so that the loose mass enters it to each of `depths`, or misses it by this distance.
     Integrators with equal steps use `steps`, the numbers of steps in a cycle, not `tolerances`.
     """
     depths = read_increasing(UNITLESS, "depths", depths, above=0.0)
@@ -68,7 +70,10 @@ def missed_contacts(
 
 
 def counts(integrator, p, passages, depths, resolution):
-    """Return counts of contacts by outcome, of invented contacts, and the error of max |Z2|."""
+    """Return two tables with counts for each depth, and the median error of max |Z2|.
+
+    The tables count contacts with each of OUTCOMES, and reports of contacts that do not exist.
+    """
     end = 2 * math.pi / p[FREQUENCY]
     touching = np.zeros((len(depths), len(OUTCOMES)), int)
     spurious = np.zeros(len(depths), int)
@@ -110,10 +115,7 @@ def _count_table(p, passages, depths, tolerances, steps):
 
 
 def _expected(passages, depths, steps, period):
-    """Return by step and depth the expected share of contacts that begin and end within one step.
-
-    A contact lasts b = 2 sqrt(2 depth/|Z2''|). A step h contains it with chance max(0, 1 - b/h).
-    """
+    # A contact lasts b = 2 sqrt(2 depth/|Z2''|). A step h contains it with chance max(0, 1 - b/h).
     curvatures = np.array([passage.curvature for passage in passages])
     beyond = 2 * np.sqrt(2 * depths / curvatures[:, None])
     return np.array([np.maximum(0, 1 - beyond * n / period).mean(axis=0) for n in steps])

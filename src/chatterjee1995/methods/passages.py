@@ -70,7 +70,8 @@ def without_walls(p):
 def draw_passages(p, count, radius, deepest, seed) -> list:
     """Return `count` passages from random states in a ball of the given radius.
 
-    In each of them max |Z2| exceeds 2 * deepest, and exceeds |Z2| at both ends by `deepest`.
+    For a contact of the depth `deepest` the wall stands at max |Z2| - deepest. In each passage this
+    number exceeds `deepest`, and exceeds |Z2| at the beginning and at the end of the passage.
     """
     random = np.random.default_rng(seed)
     flying = without_walls(p)

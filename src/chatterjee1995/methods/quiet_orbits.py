@@ -28,7 +28,10 @@ class CompliantOrbit(NamedTuple):
 
 
 def compliant_orbit(p, guess, reach, *, tolerance=POLISH_TOLERANCE, asymmetry=SYMMETRIC):
-    """Return the `CompliantOrbit` near the state `guess`, or None, and a status."""
+    """Return the `CompliantOrbit` near the state `guess`, or None, and a status.
+
+    The orbit differs from the guess by less than `reach`. Its asymmetry is below `asymmetry`.
+    """
     state = np.array(guess, float)
     converged, _, multiplier = polish(p, state, 1, reach, tolerance)
     if not converged:
@@ -43,8 +46,7 @@ def compliant_orbit(p, guess, reach, *, tolerance=POLISH_TOLERANCE, asymmetry=SY
 PHASE = 0.75 * np.pi
 REACH = 0.05  # largest distance of the state of an orbit from the guess
 SHORTEST = 2.0**-12  # shortest step between two cells, divided by the distance of the cells
-# The orbits in a row of the grid end at a fold if extrapolation finds a fold within NEAR * SHORTEST
-# columns of the last orbit.
+# Orbits end at a fold if by extrapolation it is within NEAR * SHORTEST columns of the last orbit.
 NEAR = 4
 
 
@@ -53,7 +55,8 @@ class QuietOrbits(NamedTuple):
 
     multiplier: Dominant eigenvalue of the map of half a cycle. Its square is a Floquet multiplier.
     displacement, harmonic: max |Z1|, and the amplitude of the first harmonic of Z1.
-    end: First and last column, with a fraction, of the orbits in each row; shape (rows, 2).
+    end: Columns at which the orbits of each row begin and end, shape (rows, 2). The number 2.5
+        means half-way between the columns 2 and 3.
     end_event: What ends the orbits there: map_ends (edge of the grid), fold, contacts_change,
         not_converged, or no_orbit in a row without orbits.
     """
@@ -129,8 +132,8 @@ def _row_ends(grid, row):
 
 
 def _end(followed):
-    """Return the fraction of the way to the next cell at which orbits end, and what ends them."""
-    # `spread` did not reach the next cell. Following succeeds now, since more cells are known.
+    # Earlier, `spread` failed to reach the next cell, so the grid has no orbit there. If following
+    # succeeds now, it is because `spread` has found an orbit behind, from which to extrapolate.
     if followed.arrived:
         return 0.0, "not_converged"
     before, fraction = followed.values
@@ -146,18 +149,17 @@ def _end(followed):
 # harmonic of Z2 replaces d0 in this rule. The harmonic is 8 d0/pi^2 if the primary mass rests and
 # the loose mass flies to and fro at constant speed.
 FIRST_HARMONIC_RATIO = np.pi**2 / 8
-# IMPULSE is the `impulse` q of a `Flight` for which |Z1| is equally large at an impact and at a
-# turning point. TURN is the phase phi of this turning point. For e = 1, without damping and spring,
-# q and phi solve q - 1 = cos(phi) - q + 2 q phi/pi and sin(phi) = 2 q/pi.
+# Let q be the `impulse` of a `Flight` with e = 1, without damping and spring. At q = IMPULSE, |Z1|
+# is equally large at an impact and at the next turning point, which comes at the phase TURN after
+# the impact. q and phi = TURN solve q - 1 = cos(phi) - q + 2 q phi/pi and sin(phi) = 2 q/pi.
 IMPULSE, TURN = 1.1382168528663819, 0.8104702831754177
 # CRITERIA: quantities of Z1. An optimum clearance minimises one of these quantities.
-# RULES: rules for the optimum clearance, see `rule_ratios`.
 CRITERIA = ("displacement", "first_harmonic")
 RULES = ("balance", "gap_harmonic", "straight_flight", "elastic", "flight")
 
 
 def elastic_ratios(flight) -> tuple[float, float]:
-    """Return rm W^2 d0/f of least max |Z1|, and of the least first harmonic of Z1, for e = 1."""
+    """Return the optimum rm W^2 d0/f for each of CRITERIA, NaN if e < 1 (f: forcing amplitude)."""
     if flight.restitution != 1:
         return np.nan, np.nan
     contact, damping, whole = flight.contact, flight.damping, 1 + flight.mass_ratio

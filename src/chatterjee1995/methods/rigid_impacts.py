@@ -34,12 +34,11 @@ SAME_SPEED = 1e-6  # largest relative difference of the two approach speeds in a
 def rebound(p, restitution, y, tangents, t):
     """Apply an instantaneous impact to a state y and to small changes of the state, in place.
 
-    Each row of `tangents` is a small change d of the state before the impact. Let a be the
-    acceleration of Z1 before the impact, h the damping and k = (1 + e)/(1 + 1/rm). Then
+    Each row of `tangents` is a vector d with small changes of Z1, Z1', Z2 and Z2' before the
+    impact. Let a be the acceleration of Z1 before the impact, h the damping and
+    k = (1 + e)/(1 + 1/rm). The impact changes Z1' to Z1' - k Z2', Z2' to -e Z2', and d to S d with
 
-        Z1' -> Z1' - k Z2',   Z2' -> -e Z2',
-        d(Z1, Z1', Z2, Z2') -> S d,   S = [1 0 -k 0; 0 1 k (a/Z2' + h) -k;
-                                           0 0 -e 0; 0 0 (1 + e) a/Z2' + h k -e].
+        S = [1 0 -k 0; 0 1 k (a/Z2' + h) -k; 0 0 -e 0; 0 0 (1 + e) a/Z2' + h k -e].
     """
     gain = (1.0 + restitution) / (1.0 + p[INVERSE_MASS_RATIO])
     speed = y[3]
@@ -108,9 +107,8 @@ class RigidOrbit(NamedTuple):
 def rigid_orbit(oscillator, damper, frequency, guess, reach):
     """Return the `RigidOrbit` near the state `guess`, or None, and a status.
 
-    The status is "found"; "not_followed" if Newton's method fails or meets no impact;
-    "other_contacts" if there are not two symmetric impacts; "chatter" after MOST_IMPACTS impacts in
-    a cycle.
+    The status is "found"; "not_followed" if Newton's method fails; "other_contacts" if there are
+    not two symmetric impacts; "chatter" if there are MOST_IMPACTS impacts in a cycle.
     """
     return _solve(pack(oscillator, damper, frequency), damper.restitution, guess, reach)
 

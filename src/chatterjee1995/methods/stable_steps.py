@@ -38,18 +38,17 @@ contact_frequency | contact_stiffness | | omega_c | natural frequency of an unda
 )
 
 ACCURACIES = (0.01, 0.1)  # allowed relative error of max |Z1| in each cycle
-# An orbit is followed from one r1 to the next. FACTOR is the largest ratio of the two values of r1,
-# and REACH the largest change of the orbit's state.
+# An orbit is followed in steps that change r1 by at most a factor FACTOR, and the state by REACH.
 FACTOR, REACH = 10.0**0.0625, 0.2
 EXACT = 1e-13  # tolerance of the exact orbits, with which runs are compared
-CONFIRMED = 4  # the motion must be kept by at least this number of the smallest tested steps
+CONFIRMED = 4  # `stable_step` is NaN unless this number of the smallest steps are all accurate
 STIFF = 1e3  # least r1 in the fit of `step_slope`; for larger r1 contacts are short
 
 
 def orbits_over_stiffness(oscillator, damper, frequency, stiffnesses) -> list:
     """Return the quiet orbit (or None) at each stiffness, followed from the damper's own stiffness.
 
-    Raise ArithmeticError if a start with the primary mass at rest leads to no quiet motion.
+    For the first orbit one start is tried. Raise ArithmeticError if it leads to no quiet motion.
     """
     p = pack(oscillator, damper, frequency)
     start = np.array([[0.0, 0.0, 0.0, -2 * p[CLEARANCE] * p[FREQUENCY] / math.pi]])
@@ -78,7 +77,6 @@ def orbits_over_stiffness(oscillator, damper, frequency, stiffnesses) -> list:
 
 
 def _in_steps(own, targets):
-    """Return values of r1 from `own` over all `targets`, with steps of at most a factor FACTOR."""
     cells = [np.array([own])]
     for before, target in itertools.pairwise([own, *targets]):
         count = max(math.ceil(abs(math.log(target / before)) / math.log(FACTOR)), 1)
@@ -87,7 +85,6 @@ def _in_steps(own, targets):
 
 
 def _largest_step(held, tested, steps):
-    """Return the largest step such that it and all smaller tested steps are accurate, or NaN."""
     held, steps = held[tested], steps[tested]
     failing = np.flatnonzero(~held)
     first = failing[-1] + 1 if len(failing) else 0
@@ -95,7 +92,6 @@ def _largest_step(held, tested, steps):
 
 
 def _slope(stiffnesses, steps):
-    """Fit a line to log(1/step) over log r1, for r1 >= STIFF. Return slope and standard error."""
     use = np.isfinite(steps) & (stiffnesses >= STIFF)
     if use.sum() < 3:
         return np.nan, np.nan
@@ -104,7 +100,11 @@ def _slope(stiffnesses, steps):
 
 
 def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, most_steps, periods):
-    """Return a dataset of stable steps. `scaled_steps` are steps times the contact frequency."""
+    """Return a dataset: the largest steps at which methods with equal steps are accurate.
+
+    `scaled_steps` are the tested steps, times the natural frequency of a contact. Steps that need
+    more than `most_steps` in a cycle are left out. A test takes `periods` cycles.
+    """
     stiffnesses = read_increasing(UNITLESS, "stiffnesses", stiffnesses, **STIFFNESS_RANGE)
     scaled = read_increasing(UNITLESS, "scaled_steps", scaled_steps, above=0)
     scaled = scaled[::-1]

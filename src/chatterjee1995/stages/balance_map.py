@@ -72,10 +72,9 @@ class Cells(NamedTuple):
     """Solutions of harmonic balance in all cells of a map, and the states from which runs start.
 
     All starts are states at T = 0. `resonance` is the amplitude of the free resonance, or beyond
-    the end of its branch the amplitude at this end. In a cell without a quiet solution,
-    `quiet_amplitude` and `quiet_start` are NaN. In a cell without a high solution, `high_amplitude`
-    is NaN. There `high_start` is a state of the free resonance with the loose mass at rest, or NaN
-    beyond the end of the branch.
+    the end of its branch the amplitude at this end. Without a quiet solution, `quiet_amplitude` and
+    `quiet_start` are NaN. Without a high solution, `high_amplitude` is NaN, and `high_start` is a
+    state of the free resonance with the loose mass at rest, or NaN beyond the end of the branch.
     """
 
     resonance: np.ndarray
@@ -90,8 +89,9 @@ class Cells(NamedTuple):
 def balance_cells(rows) -> Cells:
     """Solve the harmonic balance (7) in all cells of a map.
 
-    The quiet solution is the smallest one, if its |a| is below the limit HIGH * `Cells.resonance`.
-    The high solution is the largest stable one, if its |a| is not below this limit.
+    Each of `rows` holds an oscillator, a damper and a list of frequencies, one for each cell. The
+    quiet solution is the smallest one, if its |a| is below HIGH * `Cells.resonance`. The high
+    solution is the largest stable one, if its |a| is not below this limit.
     """
     cells = [
         [_cell(oscillator, damper, frequency) for frequency in frequencies]
@@ -107,7 +107,6 @@ def _cell(oscillator, damper, frequency):
     high_start = np.full(4, np.nan)
     if phase is not None:
         start = _start(free, 0.0, phase, frequency)
-        # The loose mass is at rest in the middle of the gap: Z2 = 0 and Z2' = Z1'.
         high_start = np.array([start[0], start[1], 0.0, start[1]])
     nothing = np.nan, np.full(4, np.nan)
     elastic = replace(damper, restitution=1.0)
@@ -145,7 +144,6 @@ _resonance = lru_cache(4096)(resonance)
 
 
 def _start(amplitude, relative_amplitude, phase, frequency):
-    """Return the state at T = 0 of the motion Z1 = a cos(W T + t1), Z2 = b cos(W T + t1)."""
     turn = np.array([np.cos(phase), -frequency * np.sin(phase)])
     return np.concatenate([amplitude * turn, relative_amplitude * turn])
 
@@ -159,8 +157,9 @@ class _Row(NamedTuple):
 def balance_map(parameter, values, frequency_ratios, fixed, *, settling, workers=1, progress=None):
     """Return a dataset that compares harmonic balance with exact motions, on a grid.
 
-    A row of the grid has one of the `values` of the parameter. `fixed` holds the other parameters.
-    If they contain no clearance, rule (19) sets one for each row.
+    A row of the grid has one of the `values` of the parameter. A column has one of the
+    `frequency_ratios`, which are frequencies divided by the peak frequency. `fixed` holds the other
+    parameters. If `fixed` contains no clearance, rule (19) sets one for each row.
     """
     rows = _rows(parameter, values, frequency_ratios, fixed)
     parameters = np.array(
@@ -247,7 +246,6 @@ def _kinds(records, resonance):
 
 
 def _quiet_verdict(balance, orbits):
-    """Return the flag `quiet_verdict`. Beyond a fold or a change of contacts an orbit is absent."""
     size = np.abs(orbits.multiplier)
     columns = np.arange(size.shape[1])
     ended = np.isin(orbits.end_event, ["fold", "contacts_change"])

@@ -1,7 +1,7 @@
 """Map of the contact model over restitution and load, and the loads of simulated motions.
 
-The load is G = g/(wn v0). g is the acceleration towards the wall by all forces except the contact
-force, wn is the natural frequency of the contact, and v0 is the approach speed.
+The load is G = g/(wn v0). g is the acceleration Z2'' towards the wall that all forces except the
+contact force cause, wn the natural frequency of the contact, and v0 the approach speed.
 """
 
 from dataclasses import replace
@@ -82,12 +82,12 @@ def contact_model(
 
 
 def spread_loads(largest, count):
-    """Return loads from -largest to largest, nearly even to |G| = LINEAR, then at equal ratios."""
+    """Return `count` loads LINEAR * sinh(s) from -largest to largest, with equally spaced s."""
     return LINEAR * np.sinh(np.linspace(-1, 1, count) * np.arcsinh(largest / LINEAR))
 
 
 def contact_map(restitutions, loads):
-    """Return a dict: realised restitution and verdict, by rule, load and restitution."""
+    """Return a dict: variables of the dataset that depend on exit rule, load and restitution."""
     shape = len(EXIT_RULES), len(loads), len(restitutions)
     realised, verdict = np.empty(shape), np.empty(shape, np.int8)
     for i, j, k in np.ndindex(shape):
@@ -117,7 +117,7 @@ def unloaded_table(restitutions):
 def extreme_motions(oscillator, damper, frequency, starts, seed, settling):
     """Run motions from random starts. Return the smallest settled motion, and the largest motion.
 
-    Only motions with contacts count. None takes the place of a motion that does not exist.
+    Only motions with contacts count. If there is no such motion, return None in its place.
     """
     p = pack(oscillator, damper, frequency)
     states = random_states(starts, damper.clearance, damper, seed)
@@ -137,7 +137,6 @@ def loads_of(oscillator, damper, frequency, state, periods):
     times = np.array([begin + periods * 2 * np.pi / p[FREQUENCY]])
     tolerance = strobe_map.POLISH_TOLERANCE
     _, log = traces.trace(p, state, begin, times, tolerance)
-    # Repeat the integration to store the states at which contacts begin.
     states = traces.states_at(p, state, begin, np.append(log[:, 1], times), tolerance)
     side, start, end, approach, _ = log.T
     load = side * [acceleration(p, y, t) for y, t in zip(states[:-1], start, strict=True)]

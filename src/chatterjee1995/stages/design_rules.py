@@ -130,7 +130,11 @@ class QuietMotion:
         return *(scale * size for size in sizes), abs(orbit.multiplier)
 
     def least(self, criterion, guess):
-        """Find a minimum of `at(ratio)[criterion]` near `guess`. Return its ratio and its kind."""
+        """Return the ratio of a minimum of `at(ratio)[criterion]` near `guess`, and its kind.
+
+        The kind is "smooth" or "kink"; "jump" if an orbit ends beside the minimum; "edge" if the
+        search ends before a minimum; "not_found" if there is no orbit at `guess`.
+        """
         middle, lower, upper = guess, guess * (1 - STEP), guess * (1 + STEP)
 
         def size(ratio):

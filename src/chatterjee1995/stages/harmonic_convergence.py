@@ -40,27 +40,29 @@ decay_predicted | error_measure | | | predicted power of 1/N, or rate per harmon
     """
 )
 
-# MEASURES names the errors. The other constants predict how each error decreases with the highest
-# harmonic N: as N^-n, with n from ELASTIC if e = 1 and from INELASTIC if e < 1. Without a damper it
-# decreases as exp(-n W D N), with n from ANALYTIC. D is `singularity_distance`.
+# MEASURES: errors of max |Z1|, of the harmonics of Z1 up to the highest harmonic N (retained) and
+# beyond N (omitted), and of a Floquet multiplier. Predictions: an error decreases as N^-n, with n
+# from ELASTIC if e = 1 and from INELASTIC if e < 1. Without a damper an error decreases as
+# exp(-n W D N), with n from ANALYTIC. D is `singularity_distance`.
 MEASURES = ("maximum", "retained", "omitted", "multiplier")
 ELASTIC = (4.0, 5.0, 3.5, 4.0)
 INELASTIC = (3.0, 3.0, 2.5, 3.0)
 ANALYTIC = (1.0, 1.0, 1.0, 2.0)
-# Constants of `singularity_distance`, with x = (f/|k3|)^(1/3) and the forcing amplitude f.
+# Constants of `singularity_distance`. The unit of |Z1| is x = (f/|k3|)^(1/3), with the forcing
+# amplitude f. The unit of time is 1/(x sqrt|k3|).
 # STARTS: number of start times in half a forcing cycle.
-# LARGE: |Z1| at which an integration towards the singularity stops, in units of x.
-# LAST_CHANGE: the search ends if its last two times differ by less, in units of 1/(x sqrt|k3|).
-# CLOSE: each further integration goes this fraction of the way from real time to the singularity.
+# LARGE: |Z1| at which an integration towards the singularity stops.
+# LAST_CHANGE: the search ends if the last two integrations stop at times that differ by less.
+# CLOSE: all integrations but the first go this fraction of the way from real T to the singularity.
 STARTS, LARGE, LAST_CHANGE, CLOSE = 12, 30.0, 1e-6, 0.95
 
 
 def asymptotic_harmonic(damper, frequency) -> float:
     """Return the harmonic above which the predicted powers of 1/N can hold; 1 without a damper.
 
-    Harmonics above the result have periods shorter than a contact (appendix B). With a dashpot, the
-    result is at least r1/(c W). Harmonics above r1/(c W) come more from the jump c Z2' of the
-    contact force than from the jump r1 Z2' of the slope of this force.
+    Harmonics above the result have periods shorter than a contact (appendix B). With a dashpot c,
+    the contact force jumps by c Z2', and its slope by r1 Z2'. The predictions rest on the jump of
+    the force, which outweighs the other jump in harmonics above r1/(c W) only.
     """
     if damper is None:
         return 1.0
@@ -79,10 +81,10 @@ def decay(damper, p, state) -> tuple:
 
 
 def singularity_distance(p, state) -> float:
-    """Return the distance of a free motion's nearest singularity in complex time from real time.
+    """Return the smallest positive imaginary part of T at which a free motion is singular.
 
-    It is infinite if k3 = 0. Near a singularity T*, Z1 = sqrt(-2/k3)/(T - T*). Therefore T + Z1/Z1'
-    estimates T*. Integration in complex time towards T* improves the estimate.
+    The result is infinite if k3 = 0. Near a singularity T*, Z1 = sqrt(-2/k3)/(T - T*). Therefore
+    T + Z1/Z1' estimates T*. Integration in complex time towards T* improves the estimate.
     """
     frequency, (stiffness, cubic) = p[FREQUENCY], cubic_spring(p)
     if cubic == 0:
@@ -97,7 +99,6 @@ def singularity_distance(p, state) -> float:
         return np.array([v, drive - p[DAMPING] * v - stiffness * x - cubic * x**3])
 
     def integrate(y, begin, end):
-        """Integrate on a line in complex time from `begin` to `end`, or until |Z1| is large."""
 
         def large(fraction, y):
             return LARGE * length - abs(y[0])
@@ -229,7 +230,7 @@ def _farthest(values, references):
 
 
 def decay_table(harmonics, data, damper, p, exact):
-    """Return a dict: how the errors decrease, as predicted and by a fit."""
+    """Return how `data["series_error"]` falls with the highest harmonic, by prediction and fit."""
     lowest = asymptotic_harmonic(damper, p[FREQUENCY])
     kind, predicted = decay(damper, p, exact.strobe_states[0])
     scale = np.log(harmonics) if kind == "algebraic" else harmonics

@@ -46,7 +46,8 @@ POLICIES = ["settled", "hold", "phase", "state"]
 # Policies choose among these numbers of cycles with the damper on. Successive ratios are about 1.6.
 HOLDS = (1, 2, 3, 5, 8, 13, 21, 34)
 QUANTILES = [0.5, 0.95]  # quantiles of the cycles until the goal
-# A run with the damper on. The next strobe is `ahead` cycles later, in the `state` (Z1, Z1').
+# A run with the damper on, for a number of `cycles`. The first strobe after the damper is switched
+# off comes `ahead` cycles later. `state` holds Z1 and Z1' at this strobe.
 HELD = np.dtype(
     [("released", "?"), ("cycles", "f8"), ("impacts", "i8"), ("state", "f8", 2), ("ahead", "f8")]
 )
@@ -67,7 +68,10 @@ class Outcome(NamedTuple):
 def release_policies(
     oscillator, dampers, frequencies, *, trials=200, cells=64, seed=1995, settling, workers=1
 ):
-    """Return a dataset that compares release policies for each damper and frequency."""
+    """Return a dataset that compares release policies for each damper and frequency.
+
+    Each policy has `trials` trials. The grid of a release set has `cells`^2 coarse cells.
+    """
     shape = len(dampers), len(frequencies), len(POLICIES)
     data = {
         "policy_success": np.empty((*shape, 3)),
@@ -133,7 +137,8 @@ class Trials(NamedTuple):
         reached, running = np.zeros(count, bool), np.arange(count)
         rules = np.repeat(np.array(rules, RULE), trials)
         while len(running):
-            # Random numbers: phase of switching on, place of the loose mass, release, and start.
+            # Random numbers for each trial: they choose the phase of switching on, the place of the
+            # loose mass, the phase of the release, and the state of the free motion at the start.
             draws = generator.random((trials, 4))[running % trials]
             first = np.searchsorted(owner, place[running])
             number = np.searchsorted(owner, place[running], side="right") - first
@@ -168,7 +173,7 @@ class Trials(NamedTuple):
         return held
 
     def labels(self, states):
-        """Return for each strobe state the label of the motion that follows, and cycles to it."""
+        """Return labels of free motions from strobe states, and the cycles until each is known."""
         settings = self.settling.tolerance, self.settling.limit, self.workers
         return ensemble.label_states(
             self.releases.p, states, math.pi / 2, self.releases.attractors, *settings
@@ -177,11 +182,11 @@ class Trials(NamedTuple):
 
 @kernel
 def hold_many(on, off, starts, draws, limits, rules, depth, half, tolerance, held, stop):
-    """In each trial switch the damper on, run by `legs.hold`, and run on freely to the next strobe.
+    """Run each trial with the damper on, then without the damper to the next strobe.
 
-    `starts` (n, 2) are Z1, Z1' at the last strobe before. `draws` set the phase of switching on,
-    the place of the loose mass and the release. The results are written to `held`. `legs.hold`
-    explains the other arguments.
+    `starts` (n, 2) are Z1 and Z1' at the strobe before the damper is switched on. `draws` set the
+    phase of switching on, the place of the loose mass and the release. `legs.hold` explains the
+    other arguments. The results are written to `held`.
     """
     none, path, work, y = np.empty((0, 4)), np.empty((0, 5)), workspace(), np.empty(4)
     period, first = 2.0 * math.pi / on[FREQUENCY], strobe_time(on)

@@ -63,7 +63,6 @@ CAPTURE = 0.1  # largest difference in Z1 and in Z1' between a captured run and 
 RELEASE = np.dtype(
     [("phase", "f8"), ("displacement", "f8"), ("velocity", "f8"), ("destination", "i1")]
 )
-# Names of motions with the damper (KINDS) and without it (DESTINATIONS). "none" is left out.
 KINDS = list(DAMPED_MOTION)[1:]
 DESTINATIONS = list(FREE_MOTION)[1:]
 
@@ -84,7 +83,12 @@ def migration(
     workers=1,
     progress=None,
 ):
-    """Return a dataset of releases, and of runs of the controller."""
+    """Return a dataset of `trials` runs of migration control, and of releases of the damper.
+
+    A run ends at the goal, after `periods` cycles, or after `switchings` releases. The damper stays
+    on for about `longest_hold` cycles at most. Each settled motion with the damper has `releases`
+    releases. As many take place in the first `lifetime` cycles of motions that have not settled.
+    """
     case = release_case(oscillator, damper, frequency, settling)
     roots = np.random.SeedSequence(seed).spawn(2)
     generators = map(np.random.default_rng, roots[0].spawn(trials))
@@ -116,7 +120,6 @@ def migration(
 
 
 def _example(totals):
-    """Return the index of a run that needs the median number of switchings to the goal, or 0."""
     reached = totals["trial_outcome"] == flag("trial_outcome", "reached")
     if not reached.any():
         return 0
@@ -139,7 +142,6 @@ def _summary(switchings, totals):
 
 
 def _release(case, state, wait, settling, stop=NEVER):
-    """Switch the damper off `wait` cycles after the strobe at `state`, and return a RELEASE."""
     tolerance, limit = settling.tolerance, settling.limit
     path, record = legs.leg(case.on, case.off, state.copy(), wait, 0.0, 0.0, tolerance, limit, stop)
     return wait, *path[0, 1:3], destination(case.known, record)
@@ -175,7 +177,6 @@ def watch_runs(case, seeds, lifetime, settling, workers, progress):
 
 
 def _life(p, path, record, tolerance):
-    """Return after how many cycles a run stays close (within CAPTURE) to its final orbit."""
     begin, period = strobe_time(p), 2 * np.pi / p[FREQUENCY]
     strobes = begin + np.arange(record["period"]) * period
     orbit = states_at(p, record["state"], begin, strobes, tolerance)
@@ -186,10 +187,10 @@ def _life(p, path, record, tolerance):
 
 
 def release_data(case, motions, entries, settling):
-    """Return a dict of variables on releases. Each row of an array is for a motion with damper.
+    """Return a dict of the variables on releases. The first axis is the motion with the damper.
 
-    The first row holds the releases `entries`, from motions that have not settled. The other rows
-    hold releases from `motions`, equally spaced over the period of each motion.
+    Index 0 stands for all motions that have not settled, with the releases `entries`. The other
+    indices stand for `motions`. Releases from one of these are equally spaced over its period.
     """
     number = len(entries)
     rows = [entries]

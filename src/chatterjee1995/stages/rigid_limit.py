@@ -46,7 +46,8 @@ def rigid_limit(
 ):
     """Return a dataset: errors of max |Z1| if walls are taken as rigid.
 
-    Raise ArithmeticError if no quiet motion is found.
+    Random starts at `frequency` lead to the quiet motion, which is then followed to all
+    `frequencies` and `stiffnesses`. Raise ArithmeticError if no quiet motion is found.
     """
     frequencies, stiffnesses = np.array(frequencies, float), np.array(stiffnesses, float)
     quiet = _quiet(oscillator, damper, frequency, starts, seed, settling)
@@ -144,7 +145,6 @@ def _verdict(soft, hard):
 
 
 def _needed(stiffnesses, errors):
-    """Return a dict: the r1 above which |error| stays below each threshold, and a status."""
     shape = len(THRESHOLDS), len(errors)
     needed, status = np.full(shape, np.nan), np.full(shape, flag("needed_status", "absent"))
     for j, row in enumerate(np.abs(errors)):
@@ -165,7 +165,6 @@ def _needed(stiffnesses, errors):
 
 
 def _orders(stiffnesses, errors):
-    """Fit |error| ~ r1^-n for r1 >= STIFF by least squares; return the exponents n, or NaN."""
     orders = np.full(len(errors), np.nan)
     for i, row in enumerate(np.abs(errors)):
         used = np.isfinite(row) & (stiffnesses >= STIFF)

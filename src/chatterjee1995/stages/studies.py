@@ -58,10 +58,7 @@ def study_chunk(
     workers=1,
     progress=None,
 ):
-    """Return a dataset of the motions to which random starts lead in a chunk of cells.
-
-    `cells` is a pair: the index of the first cell, and the index of the last cell plus 1.
-    """
+    """Return a dataset of the motions from random starts in cells `cells[0]` to `cells[1] - 1`."""
     axes = {name: np.asarray(axes[name], float) for name in AXES}
     shape, (first, last) = [len(values) for values in axes.values()], cells
 
@@ -71,7 +68,7 @@ def study_chunk(
         damper = Damper(contact_stiffness=contact_stiffness, **values)
         return pack(oscillator, damper, frequency), damper
 
-    # Check the ends of the sorted axes before hours of work. Values out of range would be there.
+    # The axes are sorted: if a value is out of range, an end is. Check ends before hours of work.
     for end in (0, -1):
         random_states(0, radius, system([end] * len(AXES))[1], seed)
     warn_if_narrow(oscillator, axes["frequency"], radius)

@@ -50,9 +50,9 @@ def subharmonic_suppression(
 ):
     """Return a dataset of motions with the damper in the range of W of the free subharmonic.
 
-    If the free subharmonic is found, an equal number of frequencies over its range, with a margin
-    on both sides, replaces `frequencies`. Within the range, half of the starts lie on the free
-    subharmonic.
+    If there is a free subharmonic, `frequencies` are replaced by as many frequencies that cover its
+    range and a margin on both sides. At frequencies at which it exists, half of the starts lie on
+    the free subharmonic.
     """
     if not any(getattr(oscillator, name) for name in NONLINEAR):
         raise ValueError(
@@ -80,7 +80,6 @@ def subharmonic_suppression(
 
 
 def _switch_half(oscillator, parameters, free, states, seed):
-    """Put half of `states` on the free subharmonic. Return its max |Z1| at each W, or NaN."""
     size = np.full(len(parameters), np.nan)
     half = states.shape[1] // 2
     for i, p in enumerate(parameters):
@@ -97,8 +96,9 @@ def _switch_half(oscillator, parameters, free, states, seed):
 def switched_on(oscillator, p, state, loose, generator):
     """Switch the damper on at m random times of a free motion, which begins in `state`.
 
-    For each of these times return the state when W T next is a multiple of 2 pi. The last two
-    columns of `loose` (m, 4) are Z2 and Z2' at the switching, but Z2' is 0 in every second row.
+    For each of these times return the state when W T next is a multiple of 2 pi. At the switching
+    the loose mass has Z2 and Z2' from columns 2 and 3 of a row of `loose` (m, 4). The other columns
+    are not used. In every second case Z2' is set to 0 instead.
     """
     period = 2 * np.pi / p[FREQUENCY]
     begin = strobe_map.strobe_time(p)
@@ -176,7 +176,7 @@ class FreeSubharmonic(NamedTuple):
 def free_subharmonic(
     oscillator, first, last, *, starts=96, radius=None, seed=1995, settling, workers=1
 ) -> FreeSubharmonic:
-    """Return the branch of free symmetric motions of period 3 that is found at the most W."""
+    """Return the branch of free symmetric motions of period 3 on which most motions are found."""
     frequencies = np.linspace(first, last, SEARCHED)
     parameters = np.array([pack(oscillator, None, value) for value in frequencies])
     systems = [(None, value) for value in frequencies]

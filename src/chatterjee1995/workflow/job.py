@@ -23,7 +23,7 @@ import psutil
 gc.set_threshold(10_000)
 
 # A job checks every LOOK seconds that Snakemake is alive, and ends if it is not. A new run of
-# Snakemake starts its first job later than LOOK. By then no job of an old run is left.
+# Snakemake takes longer than LOOK to start its first job. By then no job of an old run is left.
 LOOK = 0.5
 
 # Key of a parameter such as {"linspace": [0.6, 2.6, 41]} -> function that makes its value.
@@ -62,7 +62,7 @@ def made(value):
 
 
 def counts(first, last, points):
-    """Return `points` whole numbers from `first` to `last`. Their ratios are nearly constant."""
+    """Return `points` whole numbers from `first` to `last`, nearly in geometric progression."""
     import numpy as np
 
     return np.geomspace(first, last, points).round().astype(int).tolist()
@@ -100,8 +100,8 @@ class Job:
     def computed(self, given, offered):
         """Call the function of the stage, and return the dataset.
 
-        Its arguments are all parameters in `given`, the contents of the input files, and the values
-        in `offered` that have the name of an argument.
+        The function gets all parameters in `given`, and the contents of the input files. From the
+        dict `offered` it gets each value whose key is the name of one of its arguments.
         """
         function = imported(self.given["function"])
         taken = inspect.signature(function).parameters

@@ -25,7 +25,6 @@ def compile_all(processes, orders) -> None:
     gc.disable()
     fork = get_context("fork")
     with ProcessPoolExecutor(processes, fork, initializer=end_with_parent) as pool:
-        # With two processes the third task starts when the first one has ended.
         tasks = [pool.submit(warm_up_orbits), pool.submit(warm_up_settling)]
         for task in [*tasks, pool.submit(warm_up_paper, orders)]:
             task.result()

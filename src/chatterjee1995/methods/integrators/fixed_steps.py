@@ -130,7 +130,6 @@ class FixedStep(Integrator):
         return np.abs(ends[:, 3]), abs(there[0, 3])
 
 
-# The last argument of a `FixedStep` is the largest stable step times natural frequency.
 BOTH = "stable_steps", "missed_contacts"
 INTEGRATORS = (
     FixedStep(VERLET, "verlet", "velocity Verlet", 1, BOTH[:1], 2.0),

@@ -1,4 +1,4 @@
-"""The paper's method, Runge-Kutta-Merson. A step may have the error tolerance * (1 + |y|)."""
+"""The paper's method: Runge-Kutta-Merson with steps that adapt to a tolerance."""
 
 import math
 

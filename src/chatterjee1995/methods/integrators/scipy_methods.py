@@ -34,14 +34,17 @@ _event.terminal, _event.direction = True, -1
 
 
 def solved(method, p, y, span, side, tolerance, left, **options):
-    """Return the result of `solve_ivp`. The tolerance is both relative and absolute."""
+    """Run `solve_ivp` for at most `left[0]` evaluations. The tolerance is relative and absolute."""
     given = {"args": (p, side, left), "rtol": tolerance, "atol": tolerance} | options
     with np.errstate(all="ignore"):
         return solve_ivp(derivative, span, y, method, **given)
 
 
 def parts(method, p, start, t, end, tolerance, locate, left):
-    """Yield one result of `solve_ivp`, or, if `locate`, one for each flight and each contact."""
+    """Yield a result of `solve_ivp` for the whole run, or if `locate` for each flight and contact.
+
+    Each evaluation of the rate reduces `left[0]`, the number of evaluations that are still allowed.
+    """
     y, side = np.array(start), side_of(p, start) if locate else BY_POSITION
     status = 1
     while status == 1:
@@ -94,9 +97,9 @@ class SciPy(Integrator):
 
 
 # `operations` is the cost of the method itself for each evaluation of the rate. In a sum of states,
-# a term costs 4 * 2 operations: a product and an addition for each of 4 components.
-# DOP853 adds about 6 terms for the next evaluation, and 4 for the end of the step and the error.
-# LSODA adds 21 terms, and solves 4 linear equations with 2 * 4^2 operations.
+# a term costs 4 * 2 operations: a product and an addition for each of 4 components. DOP853 adds
+# about 6 terms for the state of the next evaluation, and on average 4 for the end of the step and
+# for its error. LSODA adds 21 terms, and solves 4 linear equations with 2 * 4^2 operations.
 # `factorising` is the cost of an LU factorisation: 2/3 * 4^3. Only LSODA needs LU factorisations.
 INTEGRATORS = (
     SciPy("DOP853", 4, operations=4 * 2 * (6 + 4)),

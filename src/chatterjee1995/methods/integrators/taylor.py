@@ -22,10 +22,9 @@ from impact_damper.motions import traces
 
 # Kinds of steps: FLIGHT in flight, MEETING in flight until a contact begins, CONTACT in contact.
 FLIGHT, MEETING, CONTACT = range(3)
-# Orders of the library's series: in flight, and in contact.
 ORDERS = FLIGHT_ORDER, CONTACT_ORDER
 # A step is stored as a row: its beginning, its length, the wall in contact before it, and the wall
-# in contact after it (-1, 1, or 0 for none). From column SERIES on the row holds the Taylor
+# in contact after it (-1, 1, or 0 for none). The columns from SERIES on hold the Taylor
 # coefficients of Z1. ROWS is the largest number of steps in one call of `take_steps`.
 ROWS, SERIES = 4096, 4
 PARTS = 8  # number of parts of a step; `turning_points` finds at most one zero of Z1' in a part
@@ -33,7 +32,7 @@ PARTS = 8  # number of parts of a step; `turning_points` finds at most one zero 
 
 @kernel
 def take_steps(steps, p, y, side, t, end, tolerance, flight_order, contact_order, rows):
-    """Integrate y to `end`, or until `rows` is full. Return row count, last time and last wall."""
+    """Integrate y to `end`, or until `rows` is full. Return step count, time and wall pressed."""
     work = aligned(steps[3])
     a, count = pointer(work), 0
     write_trajectory(p, y, side, tolerance, a)
