@@ -26,7 +26,7 @@ flight_step, contact_step = by_address(_MANY.flight_step), by_address(_MANY.cont
 flight_tangents = by_address(_MANY.flight_tangents)
 contact_tangents = by_address(_MANY.contact_tangents)
 SIZE, TANGENT_SIZE = _MANY.SIZE, _MANY.TANGENT_SIZE
-# Columns of `Pool.numbers`. Column j has the numbers that belong into row j of the array of a step.
+# Columns of `Pool.numbers`. Column j has the numbers that belong in row j of the array of a step.
 # In this array row j begins at the index j * LANES.
 STATE, SIDE, TIME, LONGEST, TOLERANCE, LENGTH = (
     row // LANES
@@ -198,9 +198,9 @@ def raise_largest(pool, chosen, count, kind):
     """After a step, update `pool.largest`, the largest |Z1| of each chosen trajectory.
 
     The largest |Z1| in the step is computed only if an upper bound on it exceeds `pool.largest`.
-    The bound is a sum. Its first term is |Z1| at the beginning or at the end of the step, whichever
-    is larger. Its second term is `rise`. In contact `rise` is the sum of the moduli of the terms of
-    Z1's Taylor series, without the constant term. In flight `rise` follows from the row CHANGE.
+    The bound is |Z1| at the beginning or at the end of the step, whichever is larger, plus `rise`.
+    In contact `rise` is the sum of the moduli of the terms of Z1's series without the constant.
+    In flight `rise` follows from CHANGE, an upper bound on the change of Z1' in the step.
     """
     a, order = pool.a, CONTACT_ORDER if kind & 1 else FLIGHT_ORDER
     rise, series = np.zeros(LANES), np.empty(max(FLIGHT_ORDER, CONTACT_ORDER) + 1)

@@ -126,7 +126,7 @@ def write_trajectory(p, y, side, tolerance, a):
 
 @kernel_only
 def load(p, y, side, tolerance, a):
-    """Write a trajectory into a workspace. Update the series that depend on no more than p."""
+    """Write a trajectory into a workspace. Update the Taylor series that depend on p alone."""
     kept = True
     for i in (FREQUENCY, DAMPING, DASHPOT):
         kept = kept and a[PARAMETERS + i] == p[i]

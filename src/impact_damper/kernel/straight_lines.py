@@ -56,7 +56,7 @@ def is_product(node):
 
 
 class _Lines(Body):
-    """Writes the LLVM code of assignments for `arithmetic.width` lanes, beginning with `first`."""
+    """Writes the LLVM code of assignments for `arithmetic.width` lanes, from lane `first` on."""
 
     def set(self, name, value):
         self.values[name] = value

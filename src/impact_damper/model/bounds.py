@@ -59,7 +59,7 @@ def warn(text) -> None:
 
 
 def unlabelled(name, value):
-    """Return `value` or, if it is an array of shape (), the number in it. Units are an error."""
+    """Return `value` or, if it is an array of shape () without units, the number in the array."""
     if getattr(value, "ndim", None) != 0 or not hasattr(value, "item"):
         return value
     units = getattr(value, "attrs", {}).get("units", "1")
@@ -79,7 +79,7 @@ def check_number(
     """Return `value` as a float, or raise an error if it is not allowed.
 
     Raise TypeError for a value that is no real number, such as True. Raise ValueError if the value
-    is not finite, or is out of bounds. The message shows `given`, if not empty, for the value.
+    is not finite, or is out of bounds. If `given` is not empty, it replaces the value in messages.
     """
     value = unlabelled(name, value)
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
@@ -125,9 +125,9 @@ def check_frequency(value):
 
 
 def check_starts(starts, points, least=1):
-    """Raise an error if `starts` is below `least`, or if all runs are more than MOST_RUNS.
+    """Raise an error if `starts` is below `least`, or if there are more than MOST_RUNS runs.
 
-    There are `starts` runs at each of `points` parameter values. `least` is always allowed.
+    There are `starts` runs at each of `points` parameter values. `starts` = `least` is no error.
     """
     most = max(least, MOST_RUNS // points)
     check_count("starts", starts, least=least, most=most, why=f"memory holds {MOST_RUNS} runs")

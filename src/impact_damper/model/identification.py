@@ -12,7 +12,7 @@ from impact_damper.model.units import QUANTITIES, check_si
 COLUMN = re.compile(r"\s*([a-z]+)[\s_\[(]+([^\s\])]+)[\])]?\s*")
 FEWEST = 20
 SPRING = ("linear_stiffness", "damping", "cubic_stiffness")
-# `from_response` makes PASSES fits in turn. It divides R, defined in its docstring, by (s^2 +
+# `from_response` makes PASSES fits in turn. It divides R (see its docstring) by (s^2 +
 # FOLD^2)^(1/2) with s = dR/d ln a, because s is almost 0 near a jump of the response.
 FOLD, PASSES = 0.1, 6
 

@@ -100,7 +100,7 @@ class Machine:
     base_displacement, base_acceleration and unbalance. An unbalance exerts a force whose amplitude
     is w^2 times `unbalance`, at the angular frequency w. On a moving base, displacements are
     relative to the base, and the base's acceleration acts on both masses. Functions that take a
-    machine take frequencies in Hz and states in m, m/s. Their datasets have mm, Hz, N, m/s and s.
+    machine take frequencies in Hz and states in m, m/s. Their datasets are in mm, Hz, N, m/s and s.
 
     Raises
     ------

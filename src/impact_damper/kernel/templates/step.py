@@ -33,8 +33,8 @@ def limit_length(a, series, order, excess):
     """Shorten LENGTH so that the last two terms of a velocity's series are below `largest_tail`.
 
     Only lanes whose TAIL exceeds `excess` times `largest_tail` are changed. The coefficients c[k]
-    of the displacement stand in the rows from `series` on, and the highest k is `order`. The term
-    k c[k] t^(k-1) of the velocity has the modulus `largest_tail` at a time t.
+    of the displacement stand in the rows from `series` on, and the highest k is `order`. At the
+    new LENGTH t, each of the last two terms k c[k] t^(k-1) has at most the modulus `largest_tail`.
     """
     for i in range(LANES):
         most = bits(largest_tail(a, i))
