@@ -106,7 +106,7 @@ def _distinct(p, motions):
 
 
 def linear_flow(p, state, periods):
-    """Return Z1 (n,) and dz(t)/dz(0) (n, 2, 2) at n times t along an orbit, with z = (Z1, Z1')."""
+    """Return Z1 (n,) and dz(t)/dz(0) (n, 2, 2) at n points of an orbit, where z is (Z1, Z1')."""
     y, tangents, work = np.tile(state, 2), np.eye(4)[:2].copy(), workspace()
     times = strobe_time(p) + np.arange(periods * STEPS + 1) * 2 * np.pi / (STEPS * p[FREQUENCY])
     displacement, matrices = [y[0]], [np.eye(2)]
@@ -120,7 +120,7 @@ def linear_flow(p, state, periods):
 def neighbourhood(p, state, periods):
     """Return the matrix S of a neighbourhood |S (z - state)| < 1 around a `state` of an orbit.
 
-    All motions from the neighbourhood tend to the orbit. S is infinite if none can be proved.
+    All motions from the neighbourhood tend to the orbit. If this cannot be proved, S is infinite.
     """
     displacement, matrices = linear_flow(p, state, periods)
     values, vectors = np.linalg.eig(matrices[-1])
@@ -142,15 +142,10 @@ def neighbourhood(p, state, periods):
 
 
 def _radius(coefficients, step, contraction):
-    """Return the largest r(0) for which `contraction` r(P) < FACTOR r(0). P is the orbit's period.
-
-    `contraction` is the largest modulus of a multiplier. r(t) bounds the nonlinear growth of the
-    distance from the orbit. It obeys r' = a r^2 + b r^3, where `coefficients` holds a, b >= 0. The
-    numerical solution overestimates r.
-    """
     low, high = 0.0, 10.0
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
+        # Integrate r' = a r^2 + b r^3 from r = middle on, so that the error never makes r smaller.
         r = middle
         for a, b in coefficients.T:
             ahead = r + 2 * step * (a + b * r) * r * r
@@ -261,6 +256,6 @@ def signed_distance(inside):
     """Return each cell's distance from the edge of a set, in cell widths (outside: negative)."""
     if inside.all() or not inside.any():
         return np.where(inside, np.inf, -np.inf)
-    # The edge is half a cell width nearer than the centre of the nearest cell beyond the edge.
+    # A transform gives the distance to the centre of a cell beyond the edge, half a cell too much.
     inward, outward = distance_transform_edt(inside), distance_transform_edt(~inside)
     return np.where(inside, inward - 0.5, 0.5 - outward)

@@ -56,7 +56,11 @@ def settle(
 
 @kernel
 def settle_many(parameters, states, start, tolerance, patience, limit, out, stop):
-    """Run motion i from states[i] at the time start[i], for all i; write records into `out`."""
+    """Run motion i from states[i] at the time start[i], for all i; write records into `out`.
+
+    A run ends as described in `watch`, at the latest after `limit` cycles. Another thread can stop
+    all runs by setting `stop[0]`.
+    """
     size = min(len(out), RESIDENT)
     pool = make_pool(size)
     seen = np.zeros(size, SEEN)
@@ -103,7 +107,7 @@ def follow_many(parameters, states, cycles, tolerance, contacts, largest):
     advance(parameters, states, sides, begins, ends, tolerance, contacts, largest)
 
 
-# Two kernels that run many motions at once: until outcomes are known, and for a number of cycles.
+# The argument `kernels` of `settle_with` that runs many motions side by side.
 SIDE_BY_SIDE = settle_many, follow_many
 
 
@@ -119,7 +123,7 @@ def take(pool, m, i, parameters, states, start, tolerance, seen, out):
 
 @kernel_only
 def take_state(pool, m, i, p, states, begin, first, tolerance, y, taken, strobes):
-    """Put the free motion from states[i], if it exists, at index m of the pool of motions."""
+    """Put free motion i, if it exists, at index m of the pool. It runs from `begin` to `first`."""
     if i < len(states):
         taken[m], strobes[m] = i, 0
         y[0], y[1], y[2], y[3] = states[i, 0], states[i, 1], states[i, 0], states[i, 1]

@@ -14,7 +14,7 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE, polish, repeats_s
 
 # Factor by which the step of the parameter grows after a successful step.
 GROWTH = 1.5
-# Newton's method may move a predicted state by at most REACH, the state at the start by NUDGE.
+# Newton's method may move a predicted state by at most REACH, and the first state by at most NUDGE.
 REACH, NUDGE = 0.03, 1e-3
 # Smallest step of the parameter. The end of a branch is found to this accuracy.
 RESOLUTION = 1e-8
@@ -92,7 +92,7 @@ def follow_stable(p, state, periods, parameter, target) -> tuple:
     Following stops where Newton's method fails (for example at a fold), or where the orbit jumps,
     becomes unstable or repeats after fewer than `periods` cycles. Return the packed parameters and
     the `StrobeOrbit` at the last value, which is exactly `target` if the target is reached.
-    If Newton's method fails at every value, return the given state and the multiplier NaN.
+    If the method fails from the start, return the given parameters and state, with multiplier NaN.
     """
     # A period from a record is a two-byte integer. For that type numba would compile kernels again.
     periods = int(periods)

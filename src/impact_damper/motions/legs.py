@@ -55,10 +55,12 @@ def run(p, y, ahead, strobe, tolerance, limit, stop=NEVER):
 
 @kernel
 def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, path, out):
-    """Run a motion from strobe `first` to strobe `last`, or until it settles or escapes.
+    """Run a motion from strobe number `first` to number `last`, or until it settles or escapes.
 
-    Return the wall in contact at the end, and the last value of `near`: the distance from an orbit
-    at which Newton's method is tried. A failure of the method reduces `near`.
+    Strobe 0 has the time `strobe` in forcing cycles, and strobe `limit` ends the whole run. `path`
+    is as in `run`. `ring` holds the last strobe states. Return the wall in contact at the end, and
+    the last value of `near`: the distance from an orbit at which Newton's method is tried. A
+    failure of the method reduces `near`.
     """
     work = workspace()
     none = np.empty((0, 4))
@@ -83,7 +85,7 @@ def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, p
 
 
 def leg(before, after, y, wait, place, strobe, tolerance, limit, stop=NEVER):
-    """Run from a strobe for `wait` cycles, switch the damper, run on; return what `run` returns."""
+    """Run from a strobe, switch the damper (`wait_and_switch`), and return what `run` returns."""
     wait_and_switch(before, after, y, wait, place, tolerance)
     return run(after, y, 1.0 - wait % 1.0, strobe + math.floor(wait) + 1.0, tolerance, limit, stop)
 
@@ -105,10 +107,12 @@ def wait_and_switch(before, after, y, wait, place, tolerance):
 
 
 def hold_by_state(off, on, y, wait, place, strobe, tolerance, longest, releases):
-    """Run from a strobe for `wait` cycles, switch the damper on, run, and switch it off.
+    """Switch the damper on, and switch it off when the state is in the release set `releases`.
 
-    The damper is switched off when the state is in the release set `releases`, or after `longest`
-    cycles. The last state replaces y. Return the path with the damper on, in rows as in `run`.
+    The run begins in the state y at a strobe, at the time `strobe` in forcing cycles. After `wait`
+    cycles the damper is switched on, and Z2 is set to `place` times the clearance. The damper then
+    stays on for at most `longest` cycles. The last state replaces y. Return the path with the
+    damper on, in rows as in `run`.
     """
     begin = wait_and_switch(off, on, y, wait, place, tolerance)
     path = np.full((longest + 2, 5), np.nan)
@@ -144,12 +148,12 @@ def depth_of(depth, half, phase, x, v):
 def hold(on, y, side, begin, limit, rule, draw, depth, half, tolerance, path, work):
     """Run a motion with the damper on, from the time `begin` until a rule ends the run.
 
-    `rule` is (kind, n, k). A run of the kind HOLD ends after n forcing cycles. A run of the kind
-    PHASE ends after n cycles, when W T next is 2 pi k/PHASES. A run of the kind STATE ends when the
-    state is in the release set of `depth` and `half`, or after n cycles. A run of the kind SETTLED
-    ends after the strobe states repeat, at the fraction `draw` of the next period. Each strobe
-    gives a row of `path` (m, 5): forcing cycles since `begin`, and the state. Return the last time,
-    whether the rule ended the run within `limit` cycles, and the number of contacts begun.
+    `rule` is (kind, n, k). HOLD ends the run after n forcing cycles. PHASE ends it when W T modulo
+    2 pi is 2 pi k/PHASES for the first time after n cycles. STATE ends it when the state is in the
+    `ReleaseSet` with the fields `depth` and `half`, or after n cycles. SETTLED ends it after the
+    strobe states repeat, at the fraction `draw` of the next period. Each strobe gives a row of
+    `path` (m, 5): forcing cycles since `begin`, and the state. Return the last time, whether the
+    rule ended the run within `limit` cycles, and the number of contacts begun.
     """
     kind, length, wanted = rule
     none, ring = np.empty((0, 4)), np.empty((RING, 4))

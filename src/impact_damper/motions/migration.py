@@ -66,8 +66,8 @@ def migrate(
         Forcing frequency W, or Hz for a machine, at which two free motions of period 1 exist.
     release : {"settled", "state"}
         With "settled", as in the paper, the damper is switched off at a random phase after the
-        motion has settled. With "state" the damper is switched off as soon as the state of the
-        primary mass leads to the small motion.
+        motion has settled. With "state" the damper is switched off as soon as switching off leads
+        to the small motion.
     seed : int or numpy.random.SeedSequence
         Seed of the random phases of switching and of the random places of the loose mass.
     longest_hold : int
@@ -129,7 +129,6 @@ def migrate(
 
 
 def _free_motion(oscillator, frequency, start, which, settling):
-    """Find a free motion of period 1 at the frequency `start`, then follow it to `frequency`."""
     p = pack(oscillator, None, start)
     free = main_solutions(oscillator, start)
     angle = free.phase[which] + np.pi / 2
@@ -143,9 +142,9 @@ def _free_motion(oscillator, frequency, start, which, settling):
 def release_case(oscillator, damper, frequency, settling) -> ReleaseCase:
     """Return the `ReleaseCase` of a damper; raise ValueError if a free motion does not exist.
 
-    With a hardening spring the resonance motion is followed upward from a lower frequency, and the
-    non-resonance motion downward from a higher frequency. Both directions lead towards the fold of
-    the branch. With a softening spring upward and downward are exchanged.
+    Each motion is followed towards the fold at which its own branch ends. With a hardening spring
+    the resonance motion is followed upward from a lower frequency, and the non-resonance motion
+    downward from a higher frequency. With a softening spring upward and downward are exchanged.
     """
     on, off = pack(oscillator, damper, frequency), pack(oscillator, None, frequency)
     above = min(1.1 * frequency, bounds.FREQUENCY_RANGE["most"])
@@ -187,11 +186,13 @@ def destination(known, record):
 def control(case, draws, longest_hold, settling, periods, releases, stop=NEVER):
     """Return the path and the log (`SWITCHING`) of one run of migration control.
 
-    A row of `draws` holds three random numbers from 0 to 1: the wait before switching on, the place
-    of the loose mass (0: at one wall, 1: at the other wall), the wait before switching off. Waits
-    are in periods of the motion. `releases` is the `ReleaseSet`, or None to switch the damper off
-    after the motion has settled. The path (m, 5) has a row for each strobe, switching on and
-    switching off. A row holds the time, in forcing cycles since the first strobe, and the state.
+    The run begins on the resonance motion. A row of `draws` holds three random numbers from 0 to 1:
+    the wait before switching on, the place of the loose mass (0: at one wall, 1: at the other), and
+    the wait before switching off. Waits are in periods of the motion. `releases` is the
+    `ReleaseSet`, or None to switch off after the motion has settled. The damper stays on for about
+    `longest_hold` cycles at most, and is not switched on after `periods` cycles. The path (m, 5)
+    has one row for each strobe, and one for each time at which the damper is switched on or off. A
+    row holds the time, in forcing cycles since the first strobe, and the state.
     """
     y, period, strobe, path = case.state.copy(), 1, 0.0, []
     tolerance, limit = settling.tolerance, settling.limit

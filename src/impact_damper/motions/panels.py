@@ -66,8 +66,8 @@ def sampled(p, state, begin, end, tolerance) -> Panels:
 def contact_forces(p, state, span, course, tolerance):
     """Return the largest force in each contact of a motion, divided by the primary mass.
 
-    `course` is the result of `trace` for the motion. The motion is run again with the same time
-    steps, so that even a chaotic motion has the same contacts.
+    `span` holds the times at which the motion begins and ends. `course` is the result of `trace`.
+    The motion is run again with the steps of `trace`, so even a chaotic motion repeats itself.
     """
     states, log = course
     forces = np.zeros(len(log))
@@ -80,7 +80,6 @@ def contact_forces(p, state, span, course, tolerance):
 
 
 def _divided(p, state, span, course, tolerance, flights):
-    """Return the panels of a motion: those in contacts, and if `flights` those in flights too."""
     (begin, end), (states, log) = span, course
     # The edges are `begin`, both ends of each contact, and `end`. Flights and contacts alternate.
     ends = np.where(np.isfinite(log[:, 2]), log[:, 2], end)

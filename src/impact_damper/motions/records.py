@@ -20,9 +20,8 @@ from impact_damper.model.packed import FREQUENCY
 from impact_damper.motions.strobe_map import STROBE, distance, speed_weight, strobe_time
 from impact_damper.motions.traces import record_beginning
 
-# A harmonic smaller than this fraction of another harmonic is a rounding error. It has no phase.
+# A harmonic has no phase if it is below this fraction of the harmonic with which it is compared.
 PHASELESS = 1e-9
-# A motion is symmetric if its asymmetry is below this number.
 SYMMETRIC = 1e-6
 # Number of samples in a forcing cycle from which harmonics are computed.
 SAMPLES = 64
@@ -33,11 +32,11 @@ AT_ONCE = 1024
 NEVER = np.zeros(1, bool)
 UNRESOLVED, SETTLED, CHAOTIC, DIVERGED, NON_COLLIDING = range(5)
 ESCAPED, AT_REST, QUASI_PERIODIC, DRIFTING = range(5, 9)
-# Fields of a record. A run fills the fields up to `state`, `measure` the fields after `state`.
+# Fields of a record. A run fills the fields up to `state`. `measure` fills the other fields.
 # period       period of the orbit in forcing cycles, 0 without an orbit
 # periods_run  forcing cycles until the outcome was known
 # residual     largest component of the difference between states a period apart
-# reach        largest (Z1^2 + (Z1'/W)^2)^(1/2) at a strobe after the first patience/2 cycles
+# reach        largest (Z1^2 + (Z1'/W)^2)^(1/2) at the strobes after settling.patience/2 cycles
 # state        state at the strobe: on the orbit if settled, otherwise the last state of the run
 WATCHED = "residual lyapunov_exponent lyapunov_error first_frequency second_frequency"
 MEASURED = "maximum_displacement contacts asymmetry"
@@ -101,7 +100,11 @@ def survey(p, states, phases, times, tolerance, log, sums):
 
 @kernel_only
 def add_samples(c, order, moments, sample, count, sums):
-    """Sample the polynomial c. Add values times cos(W T), sin(W T) to sums[0], sums[1]."""
+    """Add `count` samples of a polynomial c, times cos(W T) and sin(W T), to sums[0] and sums[1].
+
+    c has the degree `order`. `moments` are the times of four samples, of which the first `count`
+    are used. `sample` is the number of the first sample, counted from the strobe.
+    """
     t0, t1, t2, t3 = moments
     v0 = v1 = v2 = v3 = c[order]
     for k in range(order - 1, -1, -1):
@@ -114,7 +117,7 @@ def add_samples(c, order, moments, sample, count, sums):
 
 @inlined
 def measure_orbit(p, periods, tolerance, out):
-    """Measure an orbit over its period, `periods` forcing cycles; complete its record `out`."""
+    """Measure an orbit over one period of `periods` forcing cycles. Complete its record `out`."""
     halves = 1 + periods % 2
     state = out.state.copy()
     y = state.copy().reshape(1, 4)
@@ -140,7 +143,7 @@ def measure_orbit(p, periods, tolerance, out):
 
 @kernel
 def measure_orbits(parameters, tolerance, out, stop):
-    """Measure the orbits with the records `out`; complete the records.
+    """Measure the orbits that the records `out` describe, and complete these records.
 
     An orbit is integrated over its period, from its state at the strobe. If the period is odd, the
     asymmetry is the distance between the mirrored first state and the state half a period later;
@@ -173,8 +176,8 @@ def follow_each(parameters, states, cycles, tolerance, contacts, largest):
 def measure(parameters, settling, out, stop, follow=follow_each):
     """Measure motions from their states at the strobe; complete their records `out`.
 
-    The kernel `follow` runs motions without a period for `settling.watched` cycles. Their records
-    receive max |Z1| and the mean number of contacts in a cycle; other measurements are NaN.
+    If a motion has no period, the kernel `follow` runs it for `settling.watched` cycles. Its record
+    receives max |Z1| and the mean number of contacts in a cycle; other measurements are NaN.
     """
     measure_orbits(parameters, settling.tolerance, out, stop)
     watched = settling.watched
@@ -209,7 +212,7 @@ def phase_of(harmonic, reference):
 
 
 def tabulate(records):
-    """Return dataset variables from an array of records of any shape, as a dict."""
+    """Return the dataset variables of records, as a dict. The array may have any shape."""
     first, second = records["harmonic_displacement"], records["harmonic_relative"]
     others = ("multiplier", "state", "reach", "harmonic_displacement", "harmonic_relative")
     return {name: records[name] for name in MOTION.names if name not in others} | {
@@ -223,10 +226,10 @@ def tabulate(records):
 def envelope(parameters, lengths, y, tolerance):
     """Run a motion through n windows of time, with a row of packed parameters for each window.
 
-    Return two arrays (n,): the largest |Z1| in each window, and the number of contacts that begin.
-    In the window of an escape |Z1| is infinite; all other entries from there on are NaN. The last
-    state replaces y. Each window begins at the strobe. The forcing is 0 there, so W can change
-    between windows. If there is forcing, each entry of `lengths` must be one forcing cycle.
+    Return for each window the largest |Z1| and the number of contacts that begin. If the motion
+    escapes in a window, its |Z1| is infinite and its number is NaN; later windows have only NaN.
+    The last state replaces y. Each window begins at the strobe, where the forcing is 0, so W can
+    change between windows. If there is forcing, each window must last one forcing cycle.
     """
     largest, contacts = np.full((2, len(lengths)), np.nan)
     side = side_of(next(iter(parameters)), y)

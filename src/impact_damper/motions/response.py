@@ -25,7 +25,7 @@ from impact_damper.motions.watch import NEAR
 
 # Runs that measure the lives (durations) of chaotic transients. APART: largest random change of Z1
 # and of Z1' in the first state. CAPTURE: distance from an orbit at which a transient has ended.
-# CHECKED: number of forcing cycles for which a run that has not ended is continued, as a check.
+# CHECKED: number of further cycles for which a run is continued if its transient has not ended.
 APART, CAPTURE, CHECKED = 1e-4, 0.1, 300
 
 
@@ -61,8 +61,9 @@ def frequency_response(
         Random starts (initial states) at each frequency.
     radius : float, optional
         Random starts are uniform in a ball with this radius around rest, and the loose mass is in
-        its gap. Without a radius, random starts are scaled by the motions without the damper, and
-        further starts are not random: for example states on the motions without the damper.
+        its gap. Without a radius, |Z1| and |Z1'| of random starts reach up to three times their
+        largest values in motions without the damper. Further starts are then not random: for
+        example states on motions without the damper.
     whole_gap : bool
         Used with a radius. If False, all four components of a start lie in the ball, as in the
         paper. If True, only Z1 and Z1' lie in the ball; the loose mass is at relative rest anywhere
@@ -71,7 +72,7 @@ def frequency_response(
         Seed of the random starts.
     settling : Settling, optional
     life_runs : int
-        Number of runs that measure how long a chaotic motion lasts; 0: no measurement.
+        Number of runs for each chaotic motion that measure how long it lasts; 0: no measurement.
     life_periods : int
         Largest length of a run that measures how long a chaotic motion lasts, in forcing cycles.
     workers : int
@@ -87,7 +88,8 @@ def frequency_response(
           the share of random starts that lead to the motion; the mean life of a chaotic motion.
           Entries without a motion have the outcome `absent`.
         - For each (frequency, start): outcome and length of the run. For each `end`: the end of a
-          branch. For each `frequency`: largest |Z1| and speed of starts and of free motions.
+          branch. For each `frequency`: the largest |Z1| and the largest |Z1'| of random starts, and
+          the same for the motions without the damper.
         - `missed_share`: upper bound (95 %) on the share of starts that lead to motions not found.
 
     Warns
@@ -126,10 +128,10 @@ def frequency_response(
 
 
 def find_lives(parameters, outcomes, states, runs, periods, seed, settling, **running) -> dict:
-    """Return a dict of dataset variables (n, m): the lives of the chaotic motions in a sweep.
+    """Measure the mean lives of the chaotic motions in a sweep; return dataset variables (n, m).
 
-    Each chaotic motion is run `runs` times, from random states close to its own, for at most
-    `periods` forcing cycles. `outcomes` (n, m) and `states` (n, m, 4) describe the sweep's motions.
+    Each chaotic motion is run `runs` times for at most `periods` cycles, from random states nearby.
+    `outcomes` (n, m) and `states` (n, m, 4) describe the motions. `running`: workers, progress.
     """
     chaotic = np.argwhere(outcomes == flag("outcome", "chaotic"))
     table = {"life_ends": np.full(outcomes.shape, -1)}
@@ -156,8 +158,8 @@ def _lives(parameters, states, periods, settling, **running):
 
     def work(part):
         begin = 0.5 * np.pi / parameters[part, FREQUENCY]
-        # The patience, 2 periods + 2, exceeds twice the length of a run. So no run is stopped as
-        # chaotic, and no tangent is computed.
+        # Tangents are computed only after patience/2 cycles, and only with a tangent can a run be
+        # stopped as chaotic. Here patience/2 = periods + 1 exceeds the length of a run.
         settings = settling.tolerance, 2 * periods + 2, periods
         settle_many(parameters[part], states[part], begin, *settings, records[part], stop)
 

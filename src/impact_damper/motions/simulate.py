@@ -17,10 +17,10 @@ CONTACT = "contact_wall contact_begin contact_end approach_velocity departure_ve
 
 
 def random_states(count, radius, damper, seed, *, within_gap=True):
-    """Return random states (count, 4), uniform in a ball with a given radius around the origin.
+    """Return `count` states (Z1, Z1', Z2, Z2'), uniform in a ball around 0 with a given radius.
 
-    Without a damper the ball is a disk of (Z1, Z1'). If `within_gap`, a state with |Z2| above the
-    clearance is drawn again, because the wall would store a large energy.
+    If `within_gap`, a state with |Z2| above the clearance is drawn again, because the wall would
+    store a large energy. Without a damper (Z1, Z1') is uniform in a disk, and Z2 = Z1, Z2' = Z1'.
     """
     if damper is not None and within_gap:
         limits = {"above": 0.0, "most": bounds.MOST_RADIUS * damper.clearance}

@@ -1,12 +1,13 @@
 """Start states of a search for motions: random states, and states on known motions.
 
-A start is an initial state. With a radius all starts are random: uniform in a ball, as in the paper
-(section 3, iii), or with the primary mass in a disk and the loose mass anywhere in its gap. Without
-a radius there are random and placed starts. The sizes of random starts are uniform on a logarithmic
-scale, up to SPREAD times the largest free motion (a motion without the damper). Placed starts lie
-at rest, on free motions, on solutions of harmonic balance, and at the end of ramps. A ramp is a
-slow change of a parameter. A ramp can lead a weakly damped machine to a violent motion to which
-random starts rarely lead.
+A start is an initial state. If the user gives a radius, all starts are random. They are uniform in
+a ball, as in the paper (section 3, iii). With the option `whole_gap` the primary mass is in a disk
+instead, and the loose mass anywhere in its gap. If the user gives no radius, there are random and
+placed starts. The distances of random starts from rest are then uniform on a logarithmic scale, and
+|Z1| and |Z1'| reach SPREAD times their largest values in motions without the damper. Placed starts
+lie at rest, on motions without the damper, on solutions of harmonic balance, and at the end of
+ramps. A ramp is a slow change of a parameter. A ramp can lead a weakly damped machine to a violent
+motion to which random starts rarely lead.
 """
 
 import math
@@ -29,11 +30,12 @@ from impact_damper.theory.single_harmonic import impacting_solutions
 # Search for free motions. PHASES: number of starts on a solution of harmonic balance. SAMPLES:
 # samples in a forcing cycle. MOST_STATES: largest number of states that are stored for one motion.
 PHASES, SAMPLES, MOST_STATES = 6, 256, 5
-# Random starts. SPREAD: size of the largest start divided by the size of the largest free motion.
-# SMALLEST: size of the smallest start divided by the size of the largest start.
+# Random starts. SPREAD: largest |Z1| and |Z1'| of starts, divided by those of the free motions.
+# SMALLEST: smallest distance of a start from rest, divided by the largest distance.
 SPREAD, SMALLEST = 3.0, 0.01
-# Placed starts. PLACES: Z2 divided by the clearance. VELOCITIES: Z2' divided by `_crossing_speed`,
-# or for starts on free motions by the largest |Z1'| of these, if it exceeds `_crossing_speed`.
+# Placed starts. PLACES: Z2 divided by the clearance. VELOCITIES: Z2' divided by a speed. The speed
+# is `_crossing_speed` for starts at rest. For starts on free motions it is the larger of
+# `_crossing_speed` and the largest |Z1'| of the free motions.
 PLACES, VELOCITIES = (-2 / 3, 0.0, 2 / 3), (-1.0, 0.0, 1.0)
 # `sweep.stable_orbits` takes LOOSE_STATES random states of the loose mass. Their largest speed is
 # LOOSE_SPEED times the larger of `_crossing_speed` and the largest |Z1'| of free motions.
@@ -42,9 +44,9 @@ LOOSE_STATES, LOOSE_SPEED = 240, 2.0
 WITHIN = 0.7
 NO_STARTS, NO_LOOSE = np.empty((0, 4)), np.empty((0, 2))
 # Ramps. STEP: relative change of the parameter in a step. PERIODS: forcing cycles in a step.
-# RAISED: in a ramp of the force, the first force divided by the last force. BELOW: a frequency ramp
-# to W begins at BELOW times the lowest of W/2 and the fold frequencies, or it begins at the highest
-# of 2 W and the fold frequencies, divided by BELOW.
+# RAISED: in a ramp of the force, the first force divided by the last force. BELOW: the upward ramp
+# to the frequency W begins at BELOW times the lowest of W/2 and all fold frequencies. The downward
+# ramp begins at 1/BELOW times the highest of 2 W and all fold frequencies.
 STEP, PERIODS, BELOW, RAISED = 0.0125, 20, 0.9, 5.0
 
 
@@ -66,7 +68,7 @@ class Search(NamedTuple):
     free_speed: np.ndarray
 
     def variables(self, dimension=None) -> dict:
-        """Return dataset variables: sizes of starts and of free motions, and the missed share."""
+        """Return dataset variables: missed share, and the last four fields over `dimension`, if any."""
         names = "start_displacement", "start_speed", "free_displacement", "free_speed"
         data = {
             name: ((), values[0]) if dimension is None else (dimension, values)
@@ -139,7 +141,7 @@ def gap_states(count, radius, damper, seed):
 
 
 def wide_starts(oscillator, damper, frequency, count, seed, settling) -> tuple:
-    """Return the values of all fields of a `Search` without a radius, for one system."""
+    """Return the fields of a `Search` for one system, in the case that no radius is given."""
     free = free_motions(oscillator, frequency, settling)
     states, most = random_starts(oscillator, damper, frequency, count, seed, settling)
     if damper is None:
@@ -213,7 +215,6 @@ def ramped(oscillator, damper, frequency, tolerance) -> list:
 
 
 def _ramp(target, indices, factor, tolerance):
-    """Run from rest while parameters change slowly to those in `target`; return the last state."""
     p, state, none = target.copy(), np.zeros(4), np.empty((0, 4))
     for exponent in np.linspace(1, 0, 2 + math.ceil(abs(math.log(factor)) / STEP)):
         p[indices] = target[indices] * factor**exponent
@@ -243,8 +244,7 @@ class FreeMotions(NamedTuple):
 def free_motions(oscillator, frequency, settling) -> FreeMotions:
     """Find the free motions at one frequency W, by runs from rest and from harmonic balance.
 
-    Near a fold harmonic balance can miss motions. So runs also start with the amplitude of the
-    resonance peak.
+    Near a fold harmonic balance can miss motions, so runs also start at the peak amplitude.
     """
     p = pack(oscillator, None, frequency)
     angles = 2 * np.pi * np.arange(PHASES) / PHASES

@@ -140,8 +140,8 @@ def settle_with(
 
     # This call compiles the kernels in the main thread, where Ctrl-C can interrupt the compilation.
     work(slice(0, 0))
-    # Calls with many motions are faster, because near its end a call has few motions left to run
-    # side by side. But each worker gets several calls, so that all end at about the same time.
+    # Near the end of each call few motions run side by side, which is slow. So calls are large.
+    # But each worker gets several calls, so that all workers finish at about the same time.
     share = len(states) // CHUNK if workers == 1 else len(states) // (SLICES * workers * CHUNK)
     size = CHUNK * min(max(share, 1), MOST_CHUNKS)
     run_chunks(work, len(states), workers, progress, stop, size=size)
@@ -150,7 +150,7 @@ def settle_with(
 
 @kernel
 def settle_each(parameters, states, start, tolerance, patience, limit, out, stop):
-    """Run motions one after the other until their outcomes are known; write records into `out`."""
+    """Run motions as `ensemble.settle_many` does, but one after the other."""
     work, ring = workspace(), np.empty((RING, 4))
     seen, tangent = np.empty(1, SEEN), np.empty((1, 4))
     for i in range(len(out)):
@@ -168,5 +168,5 @@ def settle_each(parameters, states, start, tolerance, patience, limit, out, stop
         assign(out[i].state, y)
 
 
-# Kernels that run motions one after the other: until outcomes are known; for a number of cycles.
+# The argument `kernels` of `settle_with` that runs one motion after the other.
 ONE_BY_ONE = settle_each, follow_each

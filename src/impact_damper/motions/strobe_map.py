@@ -78,7 +78,7 @@ def flow(p, state, tangents, begin, periods, half, tolerance):
 
 @inlined
 def period_map(p, y, periods, tolerance):
-    """Return the state z, `periods` cycles after a state y; dz/dy; and the number of contacts."""
+    """Return the state z after `periods` cycles from y, then dz/dy, and the number of contacts."""
     half = np.bool_(False)  # for the literal False numba would compile `flow` again
     state, tangents, matrix = y.copy(), np.empty((4, 4)), np.empty((4, 4))
     for i in range(16):

@@ -22,15 +22,15 @@ from impact_damper.motions.records import MOTION, measured, tabulate
 from impact_damper.motions.steady import run_chunks
 from impact_damper.motions.strobe_map import STROBE, distance, flow, polish, strobe_time
 
-# Two records show the same motion if max |Z1| differs by less than SAME max |Z1|, or less than
-# ROUNDING. Two unsettled records also show the same motion if their `size_ratio` is below SIMILAR.
+# Two records are of one motion if their max |Z1| differ by less than the fraction SAME, or by less
+# than ROUNDING. For two records of unsettled motions a `size_ratio` below SIMILAR is enough.
 # A motion is symmetric if its asymmetry is below SAME.
 SAME, ROUNDING, SIMILAR = 1e-6, 1e-11, 1.5
 # Outcomes with infinite or zero max |Z1|. All motions with one such outcome count as one motion.
 ALIKE = tuple(flag("outcome", name) for name in ("diverged", "escaped", "at_rest"))
 # Search for orbits by Newton's method. LONGEST: longest period in cycles. REACH: largest distance
-# of an orbit from its first guess, divided by the largest of d0 and |Z1|, |Z1'| of known motions.
-# SAME_ORBIT: two orbits are equal if their states differ by less than this number.
+# of an orbit from its first guess, divided by d0 or by the largest |Z1| or |Z1'| of known motions,
+# whichever is larger. SAME_ORBIT: two orbits are equal if their states differ by less.
 LONGEST, REACH, SAME_ORBIT = 5, 1.0, 1e-6
 # Events at the end of a branch. At a bifurcation the modulus of the orbit's multiplier is above
 # CRITICAL. A multiplier is complex if its imaginary part is above COMPLEX. At a loss of symmetry
@@ -137,7 +137,7 @@ def _end_event(record, multiplier, beyond):
 
 
 def _branches(catalogues, links):
-    """Return the branch index of each motion. `links` pairs settled motions on the same branch."""
+    """Return the branch index of each motion. A link is a pair of settled motions on one branch."""
     links = links + [
         (first.numbers[i], second.numbers[j])
         for first, second in pairwise(catalogues)
@@ -192,7 +192,7 @@ class Catalogue:
         self.records, self.numbers, self.origins, self.starts = [], [], [], []
 
     def find(self, record):
-        """Return the index of the motion that a record describes, directly or mirrored, or None."""
+        """Return the index of a record's motion or its mirror image; None if neither is known."""
         for i, known in enumerate(self.records):
             if known["outcome"] != record["outcome"] or known["period"] != record["period"]:
                 continue
@@ -206,9 +206,10 @@ class Catalogue:
         return None
 
     def add(self, record, origin):
-        """Add the motion of a record, unless it is known; return the index of the motion.
+        """Add the motion of a record, unless the motion is known; return the motion's index.
 
-        Of two records of the same motion, the one with the larger max |Z1| is kept.
+        `origin` says how the motion was found. Of two records of the same motion, the one with the
+        larger max |Z1| is kept.
         """
         i = self.find(record)
         if i is None:

@@ -1,10 +1,11 @@
-"""Run undecided motions longer, to find their outcome.
+"""Continue the motions with the outcome UNRESOLVED, to find what kind of motions they are.
 
-The strobe states of a quasi-periodic motion lie on n closed curves. Every n-th state lies on the
-same curve. The rotation number is the mean advance along a curve in n cycles. Here the mean over N
-states is weighted. The weights of the first and last states fall so smoothly to 0 that the mean
-converges faster than any power of 1/N (S. Das, Y. Saiki, E. Sander and J. A. Yorke, Nonlinearity
-30, 4111-4140, 2017). For a chaotic motion the mean converges only as N^(-1/2).
+A quasi-periodic motion is recognised by its strobe states: they lie on n closed curves, n = 1, 2,
+..., and every n-th state lies on the same curve. From each state on a curve to the next, the angle
+around the curve's centre advances. The rotation number is the mean of these advances, in
+revolutions. This module takes a mean with weights, which fall smoothly to 0 at the first and the
+last state. Over m states this mean converges faster than any power of 1/m (S. Das, Y. Saiki,
+E. Sander and J. A. Yorke, Nonlinearity 30, 4111-4140, 2017), in a chaotic motion only as m^(-1/2).
 """
 
 import math
@@ -39,11 +40,11 @@ TORUS += ["first_frequency", "second_frequency", "frequency_error"]
 # AGREEMENT: largest error with which a rotation number is accepted.
 # FEWEST: smallest number of points from which a rotation number is computed.
 AGREEMENT, FEWEST = 1e-8, 100
-# From point to point the angle around a closed curve's mean point advances. Each advance is known
-# modulo one revolution. The mean is taken only if a range of INTERVAL revolutions has no advance.
+# The angle around a closed curve's centre advances from each point to the next. Advances are known
+# modulo 1 revolution. The mean is taken only if some interval of this length has no advance.
 INTERVAL = 0.02
-# TURN: largest change, in revolutions, of the angle around the mean point of a closed curve between
-# two neighbouring points. WANDERING: largest sum of the moduli of all these changes on the curve.
+# TURN: largest change, in revolutions, of the angle around the centre of a closed curve between two
+# neighbouring points. WANDERING: largest sum of the moduli of all these changes on the curve.
 TURN, WANDERING = 0.05, 3.0
 
 
@@ -86,8 +87,6 @@ def name_undecided(parameters, motions, limit, further, stop):
 
 
 class _Curves(NamedTuple):
-    """The closed curves on which the strobe states of a quasi-periodic motion lie."""
-
     parameters: np.ndarray
     states: np.ndarray
     record: np.ndarray
@@ -129,7 +128,6 @@ def _name_one(p, record, limit, further, known, stop):
 
 
 def _is_known(record, known, states):
-    """Return whether all states lie on known closed curves; if so, complete the record."""
     for curves in known:
         apart = np.abs(states[:, None, :3] - curves.states[None, :, :3]).max(axis=2)
         if np.max(np.min(apart, axis=1)) < NEIGHBOUR:
@@ -151,7 +149,6 @@ def _grows(growth, mean, error):
 
 
 def _on_orbit(p, record, states, contacts, limit):
-    """Look for a stable orbit near the last state; return the outcome (UNRESOLVED: no orbit)."""
     last, components = states[-1], 2 if contacts == 0 else 3
     before = states[-2 : -2 - LONGEST : -1]
     near = np.max(np.abs(before - last)[:, :components], axis=1) < NEAR
@@ -173,13 +170,10 @@ def _on_orbit(p, record, states, contacts, limit):
 
 
 def _quasi_periodic(p, record, states, mean, error):
-    """Return QUASI_PERIODIC if the states move along closed curves, otherwise UNRESOLVED.
-
-    `find_rotation` fails on a curve that has corners because of contacts, or that does not go
-    around its mean point. So all curves are tried, in the planes (Z1, Z1'/W) and (Z2, Z2'/W).
-    """
     if abs(mean) > NEUTRAL * error:
         return records.UNRESOLVED
+    # `find_rotation` fails on a curve that has corners because of contacts, or that does not go
+    # around its centre. So curves in two planes are tried, and the most accurate result is taken.
     planes = [states[:, k] + 1j * states[:, k + 1] / p[FREQUENCY] for k in (0, 2)]
     for curves in range(1, LONGEST_PERIOD + 1):
         parts = [points[first::curves] for points in planes for first in range(curves)]
@@ -203,17 +197,17 @@ def birkhoff_average(values):
 def find_rotation(points):
     """Return the rotation number of points (complex numbers) on a closed curve, and its error.
 
-    The rotation number (0 to 1/2) is the mean advance from point to point of the angle around the
-    mean point, in revolutions. First the curve is stretched until its spread is equal in all
-    directions, because on a slender curve the angle advances mainly at both tips. Rotation numbers
-    are also computed from three parts of the points. The error is the largest difference of these
-    three. Return None if no closed curve is recognised.
+    From each point to the next, the angle around the centre of the curve advances. The rotation
+    number, from 0 to 1/2, is the mean advance in revolutions. First the curve is stretched until
+    its spread is equal in all directions, because on a slender curve the angle advances mainly at
+    both tips. The number is also computed from each of three parts of the points. The error is the
+    largest of these three numbers minus the smallest. Return None if no closed curve is recognised.
     """
     if len(points) < FEWEST:
         return None
     angle = np.angle(_rounded(points)) / (2 * math.pi)
     advance = np.diff(angle) % 1
-    # Advances are known modulo 1. Choose a range of length 1 that begins where no advance is near.
+    # Advances are known modulo 1. Take each between `cut` and `cut` + 1. No advance is near `cut`.
     order = np.sort(advance)
     intervals = np.diff(order, append=order[0] + 1)
     widest = np.argmax(intervals)

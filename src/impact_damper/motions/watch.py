@@ -32,13 +32,13 @@ RING = 2 * LONGEST_PERIOD + 1
 # WEAK, in units of 1/T, is judged only at the end of a run.
 CONFIDENCE, WEAK = 4.0, 0.05
 # The growth of a tangent is measured in batches of BLOCK forcing cycles. A motion is chaotic only
-# if the tangent still grows in the last RECENT batches.
+# if the mean over the last RECENT batches exceeds half of the mean over all batches.
 BLOCK, RECENT = 10, 5
 # Newton's method is tried when a motion is nearer to an orbit than the distance NEAR. After each
 # failure the distance is divided by 10, down to NEAREST.
 NEAR, NEAREST = 1e-4, 1e-9
-# Newton's method is also tried at the larger distances EARLY from an orbit, if RETURNS successive
-# distances between states a period apart decrease. NONLINEAR, APPROACH: see `is_linear`.
+# EARLY: distances from an orbit, above NEAR, at which Newton's method is also tried. The state must
+# then move less and less in the last RETURNS periods. NONLINEAR, APPROACH: see `is_linear`.
 EARLY, RETURNS, NONLINEAR, APPROACH = (1e-2, 1e-3), 4, 0.1, 1000
 # Without forcing, a motion is at rest if its energy is at most REST times the energy at the start.
 REST = 1e-9
@@ -70,7 +70,7 @@ def normalise(tangent):
 
 @kernel_only
 def follow_tangent(tangent, growth):
-    """Scale a tangent to the length 1; add the logarithm of its growth in a cycle to `growth`."""
+    """Scale a tangent to the length 1; add its growth to the statistics in `growth` (SEEN)."""
     growth.batch += normalise(tangent)
     growth.periods += 1
     if growth.periods % BLOCK == 0:
@@ -84,7 +84,7 @@ def follow_tangent(tangent, growth):
 
 @kernel
 def exponent(growth):
-    """Return a tangent's mean growth in a batch, the standard error, and whether it still grows."""
+    """Return the mean logarithmic growth in a batch, its standard error, and whether growth lasts."""
     count = growth.periods // BLOCK
     recent = 0.0
     for i in range(RECENT):
@@ -97,7 +97,8 @@ def exponent(growth):
 def nearby_period(ring, k, weight, floor, tolerance):
     """Return the period of an orbit that seems to be nearer to the motion than `tolerance`, or 0.
 
-    ring[k % RING] is the state at strobe number k. `floor` is the error of the integration.
+    ring[k % RING] is the state at strobe number k. `weight` is an argument of `distance`. States
+    whose distance is at most `floor`, the error of the integration, count as equal.
     """
     last = ring[k % RING]
     for n in range(1, LONGEST_PERIOD + 1):
@@ -159,11 +160,12 @@ def is_linear(p, y, ring, k, n, weight):
 
     y is a state of the orbit, n its period. In a period a difference e from the orbit becomes
     M e + r, with a matrix M and |r| <= c |e|^2. The number c is measured in the last two periods.
-    c times the sum of |e| over at most APPROACH further periods must not exceed NONLINEAR. Of 7 000
-    motions that passed this test none left its orbit, so at most 0.05 % do (95 % confidence).
+    c times the sum of |e| over at most APPROACH further periods must not exceed NONLINEAR. All of
+    7 000 motions that passed this test stayed at their orbits. So the test is wrong for at most
+    0.05 % of the motions that pass, with 95 % confidence.
     """
     _, matrix, contacts = period_map(p, y, n, POLISH_TOLERANCE)
-    # A loose mass that has touched no wall in the period, but drifts, may touch one later.
+    # Without a contact in the orbit's period, the loose mass may drift and touch a wall later.
     if contacts == 0 and p[CLEARANCE] < math.inf:
         return False
     apart, ahead, none = np.zeros((3, 4)), np.zeros(4), np.zeros(4)
@@ -206,7 +208,7 @@ def leave_transient(p, out):
 
 @kernel_only
 def stays_without_contact(p, y, ring, k, out):
-    """Seek a stable orbit without contact near y; put the primary mass on it; return success."""
+    """Return whether a stable orbit without contact is near y; if so, put Z1, Z1' on the orbit."""
     for n in range(1, min(k, LONGEST_PERIOD) + 1):
         before = ring[(k - n) % RING]
         if max(abs(y[0] - before[0]), abs(y[1] - before[1])) < NEAR:

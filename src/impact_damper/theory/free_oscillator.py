@@ -46,7 +46,7 @@ def free_solutions(oscillator, frequency) -> FreeSolutions:
     drag, hardening = oscillator.damping * frequency, oscillator.hardening
     terms = [-(force**2), detuning**2 + drag**2, 2 * hardening * detuning, hardening**2]
     squares = polynomial_roots(terms)
-    # If k3 is tiny, rounding errors produce a wrong root. It lies far above f/(h W), a bound on a.
+    # Amplitudes are at most f/(h W). If k3 is tiny, rounding adds a root far above this bound.
     squares = squares[squares <= (force / drag) ** 2 * (1 + ROUNDING)]
     amplitude = np.sqrt(squares)
     inline = amplitude * (detuning + hardening * squares)
@@ -63,7 +63,7 @@ def main_solutions(oscillator, frequency) -> FreeSolutions:
 
 
 def balance_amplitudes(oscillator, frequency):
-    """Return the amplitudes of `main_solutions`, or without a peak the smallest free amplitude."""
+    """Return the amplitudes of `main_solutions`, or the smallest if the response has no peak."""
     try:
         return main_solutions(oscillator, frequency).amplitude
     except ValueError:
@@ -73,8 +73,7 @@ def balance_amplitudes(oscillator, frequency):
 def resonance(oscillator, frequency) -> Resonance:
     """Return amplitude and phase on the branch of the response curve that has the peak.
 
-    The branch ends at the fold next to the peak. Beyond this fold, return the amplitude at the
-    fold, and None as the phase.
+    Beyond the fold at the end of this branch, return the amplitude at the fold and the phase None.
     """
     free = main_solutions(oscillator, frequency)
     folds = free_folds(oscillator)
@@ -144,7 +143,6 @@ def free_folds(oscillator) -> tuple[Point, ...]:
 
 
 def _by_unbalance(oscillator):
-    """Return the terms with U in the polynomial of `free_folds`, divided by U."""
     damping, stiffness = oscillator.damping**2, oscillator.linear_frequency**2
     force, unbalance, g = oscillator.force, oscillator.unbalance, oscillator.hardening
     u = Polynomial([0, 1])

@@ -24,7 +24,8 @@ from impact_damper.theory.single_harmonic import (
     stability,
 )
 
-# Neighbours on a branch differ by less than JUMP times the largest component of any solution.
+# Largest change of a solution along a branch, from one value of the parameter to the next, divided
+# by the largest component of all solutions at all values.
 JUMP = 0.25
 
 
@@ -78,7 +79,8 @@ def harmonic_balance(system, damper, frequencies):
         By harmonic balance the suppression band is the range of frequencies around the peak Wp of
         the free response in which (7) has exactly one stable solution, smaller than the free
         resonance. Beyond the fold of the free resonance branch there is no band. The variables of
-        the band are its edges (NaN if not found), its width, and amplitudes at Wp.
+        the band are its edges (NaN if not found), its width, Wp, and two amplitudes at Wp: that of
+        the free resonance and the smallest stable one with the damper.
 
     Raises
     ------
@@ -217,7 +219,6 @@ def _band(oscillator, damper):
 
 
 def _look(oscillator, damper, frequency):
-    """Return the `band_status` at one frequency, and |a| of all stable solutions of (7)."""
     stable = np.sort(np.abs(_stable_amplitudes(oscillator, damper, frequency)))
     free = resonance(oscillator, frequency)
     if len(stable) != 1:
@@ -227,7 +228,6 @@ def _look(oscillator, damper, frequency):
 
 
 def _edge(inside, peak, limit):
-    """Return the edge of the band between W = peak and W = limit * peak; NaN without an edge."""
     step = np.sign(limit - 1) * SEARCH_STEP * peak
     inner = peak
     for outer in np.arange(peak + step, limit * peak, step):
@@ -253,7 +253,6 @@ ZERO_AMPLITUDE = 1e-6
 
 
 def _smallest(oscillator, damper, frequency):
-    """Return the stable amplitude a of (7) closest to 0 (or NaN), and the `analytical_status`."""
     if damper.restitution != 1:
         return np.nan, "inelastic"
     if beyond_closed_forms(oscillator, damper):
@@ -276,7 +275,7 @@ def analytical_table(oscillator, dampers, frequency):
 
     for k in np.flatnonzero(signed[1:] * signed[:-1] < 0):
         clearance = brentq(amplitude, dampers[k].clearance, dampers[k + 1].clearance)
-        # The sign of a also changes at a jump, where another solution becomes the smallest.
+        # A change of sign at a jump from one solution to another is not a zero of the amplitude.
         if abs(amplitude(clearance)) < ZERO_AMPLITUDE * clearance:
             best = clearance
     return {

@@ -34,7 +34,7 @@ def polynomial_roots(coefficients) -> np.ndarray:
 def smooth_roots(function, size, lower, upper) -> np.ndarray:
     """Return the real roots of an analytic function in [lower, upper], each listed once.
 
-    The rounding error of function(x) is at most EPSILON * size(x). A Chebyshev polynomial gives the
+    EPSILON * size(x) must bound the rounding error of function(x). A Chebyshev polynomial gives the
     extrema (Trefethen, Approximation Theory and Approximation Practice, 2013, chapter 18).
     """
     sizes = size(np.linspace(lower, upper, 17))

@@ -1,9 +1,10 @@
 """Single-term harmonic balance with the damper: the paper's equations (6), (7), (13), (14), (17).
 
-Z1 = a cos(W T + t1) and Z2 = b cos(W T + t1) with b > 0; a < 0 means antiphase. Walls are elastic.
-Stability follows from the slow flow (17), the equations for slowly varying amplitudes and phases.
-Here the unknowns are A = a exp(i t1) and C = b exp(i t2), where t2 is the phase of Z2. The paper's
-form of (17) in a, b, t1, t2 is singular at a = 0. Elsewhere both forms have the same eigenvalues.
+In a solution Z1 = a cos(W T + t1) and Z2 = b cos(W T + t1) with b > 0. If a < 0, Z1 and Z2 are in
+antiphase. Walls are elastic. Stability follows from the slow flow (17), the equations for slowly
+varying amplitudes and phases. In the slow flow the phase t2 of Z2 may differ from t1. This module
+writes the slow flow for A = a exp(i t1) and C = b exp(i t2). The paper writes it for a, b, t1, t2,
+which is singular at a = 0. Elsewhere both forms have the same eigenvalues.
 """
 
 from typing import NamedTuple
@@ -40,8 +41,8 @@ def contact_amplitude(relative_amplitude, clearance) -> tuple:
 def rigid_solutions(oscillator, damper, frequency) -> Solutions:
     """Return the solutions of (13), by ascending phase t1. They have b = d0.
 
-    A solution with a > d0 needs walls that pull. Equation (7) has no such solution. For a forcing
-    amplitude f other than 1, (13) holds with d0/f, k3 f^2 and a/f in place of d0, k3 and a.
+    Some of them have a > d0 and need walls that pull. Equation (7) has no such solution. For a
+    forcing amplitude f other than 1, (13) holds with d0/f, k3 f^2, a/f in place of d0, k3, a.
     """
     check_elastic(oscillator, damper)
     frequency = check_frequency(frequency)
@@ -62,7 +63,7 @@ def rigid_solutions(oscillator, damper, frequency) -> Solutions:
 
 
 def impacting_solutions(oscillator, damper, frequency) -> Solutions:
-    """Return all solutions of (7) with (6e), by ascending contact angle p, where cos(p) = d0/b.
+    """Return all solutions of (7), by ascending contact angle p, where cos(p) = d0/b.
 
     (7c) gives a(p) = (d0/cos p)(1 - k (p - sin p cos p)) with k = 2 r1/(pi rm W^2). Eliminating
     t1 from (7a, b) leaves one equation for p, with g = (3/4) k3 and the forcing amplitude f:
@@ -82,7 +83,7 @@ def impacting_solutions(oscillator, damper, frequency) -> Solutions:
 
 
 def resting_solutions(oscillator, damper, frequency) -> Solutions:
-    """Return free solutions with a < d0. The loose mass can rest in them, and then Z2 = Z1."""
+    """Return the free solutions with a < d0, with the loose mass at rest in space, so Z2 = Z1."""
     check_closed_form(oscillator, damper)
     free = free_solutions(oscillator, frequency)
     inside = free.amplitude < damper.clearance
@@ -151,11 +152,7 @@ class _Balance:
         return self._angles_within(bound) if bound < reach else (lower, upper)
 
     def _angles_within(self, reach):
-        """Return the range of p that contains every solution with |a| <= reach.
-
-        The range begins at p = 0 if d0 <= reach, and otherwise where a(p) = reach. It ends where
-        a(p) = -reach, or before, at a bound from (7a).
-        """
+        """Return the range of p that contains every solution with |a| <= reach."""
         reach *= 1 + 1e-6
         spring = reach * (abs(self.detuning) + abs(self.hardening) * reach**2)
         largest = reach + (self.force + spring) / self.inertia
@@ -202,7 +199,8 @@ MARGIN = 1e-9
 def jacobian(state, oscillator, damper, frequency) -> np.ndarray:
     """Return the Jacobian of the slow flow (the paper's appendix A), shape (..., k, k).
 
-    `state`, shape (..., k), holds Re A, Im A, and with a damper Re C, Im C: k is 2 or 4.
+    `state` (..., k) holds Re A and Im A, where A = a exp(i t1) is the complex amplitude of Z1. With
+    a damper it also holds Re C and Im C, where C is the complex amplitude of Z2.
     """
     state = np.asarray(state, float)
     primary = state[..., 0] + 1j * state[..., 1]
@@ -227,7 +225,7 @@ def growth_rate(state, oscillator, damper, frequency) -> np.ndarray:
 
 
 def fixed_points(solutions) -> np.ndarray:
-    """Return Re and Im of a exp(i t1), and with a damper of b exp(i t1), for each solution."""
+    """Return for each solution the complex amplitudes, as real and imaginary parts (`jacobian`)."""
     *sizes, phase = solutions
     return np.stack([size * np.exp(1j * phase) for size in sizes], axis=-1).view(float)
 
@@ -238,7 +236,7 @@ def stability(growth) -> np.ndarray:
 
 
 def _push_slopes(loose, damper):
-    """Return d/dC and d/dconj(C) of the contact force r1 B(b) C/b, where b is |C|."""
+    """Return the contact force's derivatives by C and conj(C). `loose` is C, as in `jacobian`."""
     size = np.abs(loose)
     contact, slope = contact_amplitude(size, damper.clearance)
     size = np.maximum(size, damper.clearance)

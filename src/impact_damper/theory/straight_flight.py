@@ -23,10 +23,10 @@ APART = 1e-20j
 class Flight(NamedTuple):
     """The quiet (small) motion near the optimum clearance.
 
-    x = W^2 Z1/f is driven by the forcing and by impacts. `impulse` q is pi/4 times the impulse of
-    an impact on x (docs/explanation/straight_flight.md). Phases phi count from the minimum that x
-    would have without impacts. An impact takes place at phi = s, the lag. An elastic contact lasts
-    the time t, and `contact` is W t/pi. `damping` is h/W. `stiffness` is wl/W, below 1.
+    x = W^2 Z1/f is driven by the forcing and by impacts (docs/explanation/straight_flight.md).
+    Phases phi count from the minimum that x would have without impacts. At the phase phi = s, the
+    lag, an impact changes dx/dphi by 4 q/pi. The number q is called `impulse`. An elastic contact
+    lasts the time t, and `contact` is W t/pi. `damping` is h/W. `stiffness` is wl/W, below 1.
     """
 
     mass_ratio: float
@@ -59,7 +59,7 @@ class Flight(NamedTuple):
 
     @property
     def reach(self):
-        """Because contacts take time, rm W^2 d0/f is smaller by (1 + rm) q times this number."""
+        """Decrease of rm W^2 d0/f because contacts take time, divided by (1 + rm) q."""
         return 4 / np.pi * self.contact_phase * self.restitution / (1 + self.restitution) ** 2
 
     @property
