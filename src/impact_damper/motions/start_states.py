@@ -68,7 +68,7 @@ class Search(NamedTuple):
     free_speed: np.ndarray
 
     def variables(self, dimension=None) -> dict:
-        """Return dataset variables: missed share, and the last four fields over `dimension`, if any."""
+        """Return a dict: the missed share, and the last four fields over `dimension` (if given)."""
         names = "start_displacement", "start_speed", "free_displacement", "free_speed"
         data = {
             name: ((), values[0]) if dimension is None else (dimension, values)
