@@ -256,6 +256,6 @@ def signed_distance(inside):
     """Return each cell's distance from the edge of a set, in cell widths (outside: negative)."""
     if inside.all() or not inside.any():
         return np.where(inside, np.inf, -np.inf)
-    # A transform gives the distance to the centre of a cell beyond the edge, half a cell too much.
+    # The transform gives the distance to the centre of a cell beyond the edge, half a cell too far.
     inward, outward = distance_transform_edt(inside), distance_transform_edt(~inside)
     return np.where(inside, inward - 0.5, 0.5 - outward)

@@ -131,7 +131,7 @@ def find_lives(parameters, outcomes, states, runs, periods, seed, settling, **ru
     """Measure the mean lives of the chaotic motions in a sweep; return dataset variables (n, m).
 
     Each chaotic motion is run `runs` times for at most `periods` cycles, from random states nearby.
-    `outcomes` (n, m) and `states` (n, m, 4) describe the motions. `running`: workers, progress.
+    `outcomes` (n, m) and `states` (n, m, 4) describe the motions. `running`: `workers`, `progress`.
     """
     chaotic = np.argwhere(outcomes == flag("outcome", "chaotic"))
     table = {"life_ends": np.full(outcomes.shape, -1)}

@@ -84,7 +84,7 @@ def follow_tangent(tangent, growth):
 
 @kernel
 def exponent(growth):
-    """Return the mean of log(growth) in a batch, its standard error, and whether growth lasts."""
+    """Return a tangent's mean logarithmic growth in a batch, its error, and if growth lasts."""
     count = growth.periods // BLOCK
     recent = 0.0
     for i in range(RECENT):

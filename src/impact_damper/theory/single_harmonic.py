@@ -225,7 +225,7 @@ def growth_rate(state, oscillator, damper, frequency) -> np.ndarray:
 
 
 def fixed_points(solutions) -> np.ndarray:
-    """Return for each solution the complex amplitudes, as real and imaginary parts (`jacobian`)."""
+    """Return the argument `state` of `jacobian` for each solution: its complex amplitudes."""
     *sizes, phase = solutions
     return np.stack([size * np.exp(1j * phase) for size in sizes], axis=-1).view(float)
 
