@@ -248,7 +248,7 @@ def watch_free(p, y, seen, out):
     return True
 
 
-@kernel
+@inlined
 def watch(p, y, side, contacts, tangent, ring, seen, tolerance, patience, limit, out):
     """Judge a motion at a strobe, complete its record `out`, and return whether it is stopped.
 
