@@ -46,7 +46,6 @@ def _growth(series, width):
 
 
 def _remaining(datasets, names):
-    """Return for each design max |Z1| of the exact quiet orbit / max |Z1| of the free resonance."""
     return [
         float(reading.design_point(orbit).orbit_displacement)
         / orbits.resonance_fold(orbits.free_of(datasets, orbit))[1]

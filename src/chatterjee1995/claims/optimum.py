@@ -51,7 +51,6 @@ def _sweeps(datasets, *keys, **fixed):
 
 
 def _displaced(sweep):
-    """Return the larger of two values of max |Z1|: at d0 10 % below and 10 % above the optimum."""
     ends = float(sweep.optimum_clearance) * np.array([1 - AWAY, 1 + AWAY])
     size = np.interp(ends, sweep.clearance, sweep.quiet_displacement, left=np.nan, right=np.nan)
     return float(np.max(size))

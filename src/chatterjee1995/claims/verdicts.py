@@ -62,8 +62,8 @@ def claims(datasets) -> pd.DataFrame:
 def document(frame, picture=None, drawn=None) -> str:
     """Return the Markdown page of the claims.
 
-    `frame` is the table of claims. `picture(name)` returns the Markdown text of a figure. Figures
-    that are not in `drawn` are left out; if `drawn` is None, all are shown.
+    `frame` is the table of claims. `picture(name)` returns the Markdown text that shows a figure,
+    by default a link to an image. `drawn` has the names of the figures to show; None shows all.
     """
     picture = picture or (lambda name: f"![{name}](../figures/{name}.png)")
     rows = frame.to_dict("records")

@@ -108,7 +108,6 @@ def _method(axes, role, work, error, bars, good, bad):
 
 
 def _roles(data):
-    """Return a dict in the order of the legend: method -> its label, colour, marker and line."""
     looks = {"taylor": (colour_of("taylor"), "o", "-")}
     further = sorted(set(data["method"].values) - {*runs_of_accuracy(), *MODELS})
     for name, look in zip(further, cycle(OTHER_ORDERS)):

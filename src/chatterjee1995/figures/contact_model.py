@@ -12,7 +12,8 @@ from impact_damper.plot.maps import mesh
 RULES = {"zero_penetration": "exit at zero penetration", "no_tension": "exit without pull"}
 LEVELS = 0.01, 0.05  # errors with a contour line
 LINEAR = 1e-3  # the load axis is linear below this value and logarithmic above
-# First marker: contacts in motions with the least max |Z1|. Second: in motions with the largest.
+# Two motions are simulated for each restitution and frequency. First marker: contacts in the
+# settled motion with the least max |Z1|. Second: contacts in the motion with the largest max |Z1|.
 MOTIONS = (
     {"color": style.BLACK, "marker": "o", "markersize": 2.6, "markerfacecolor": "none"},
     {"color": style.VERMILION, "marker": "_", "markersize": 5.0, "markeredgewidth": 0.5},

@@ -9,7 +9,6 @@ from impact_damper.plot.basin_plane import basins as basins_plot
 from impact_damper.plot.motions import migration as migration_plot
 
 AROUND = -15, 25  # first and last cycle of the detail panel, relative to the last release
-# Motion that follows when the damper is switched off -> marker.
 DESTINATIONS = {
     "non_resonance": style.markers(
         "released to the non-resonance motion", style.BLUE, ".", markerfacecolor=style.BLUE

@@ -110,7 +110,11 @@ def approach(axes, start, centre, radius, level, color, rate, **keywords):
 
 
 def passage(axes, low, high, edge, words, upward):
-    """Draw the switching of the damper: a vertical arrow between two planes, with its text."""
+    """Draw a switching of the damper: a vertical arrow between two planes, with the text `words`.
+
+    The arrow joins the points `low` and `high`. It points up if `upward` is true, otherwise down.
+    Above the height `edge`, where the upper plane begins, its line is dashed.
+    """
     x = low[0]
     ends = [(x, low[1] + 0.03), (x, edge)]
     parts.stroke(axes, [(x, edge), high], "detail", linestyle=(0, (2, 2)))

@@ -116,7 +116,7 @@ def stable_impacting(design):
 
 
 def quiet_balance(design):
-    """Return for each W, of all stable solutions of (7) with contacts, the amplitude nearest 0."""
+    """Return for each W the amplitude a of the stable impacting solution of (7) with least |a|."""
     amplitude = stable_impacting(design)
     return amplitude.isel(solution=np.abs(amplitude).fillna(np.inf).argmin("solution"))
 

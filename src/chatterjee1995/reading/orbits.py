@@ -17,7 +17,7 @@ INTERPOLATED = ("frequency", "size", "amplitude", "loose")  # columns interpolat
 
 
 def free_of(datasets, data):
-    """Return the branches of the oscillator of `data` without a damper, or raise Missing."""
+    """Return the dataset of branches with the oscillator of the dataset `data`, but no damper."""
     wanted = oscillator_of(data)
     for free in reading.free(datasets, "branches").values():
         if oscillator_of(free) == wanted:
@@ -35,15 +35,15 @@ def pieces(branches) -> pd.DataFrame:
     """Return a table of pieces. A piece joins two successive orbits of a branch.
 
     `lower`, `upper`: the lower and the higher frequency W of the two orbits.
-    `fewest`, `contacts`: contacts per cycle in the orbit with fewer and in the orbit with more.
+    `fewest`, `contacts`: the smaller and the larger of the two orbits' contacts per cycle.
     `restitution`: the least (speed after a contact)/(speed before it) in both orbits.
     `frequency`, `size` (max |Z1|), `amplitude`, `loose`: means over the two orbits.
     `frequency_change`, `size_change`, `amplitude_change`, `loose_change`: the value at the second
     of the two orbits minus the value at the first.
 
-    `amplitude` and `loose` are complex. The modulus of each is the amplitude of the first harmonic
+    `amplitude` and `loose` are complex. The modulus of both is the amplitude of the first harmonic
     of Z1. The phase of `amplitude` is the phase of Z1 relative to Z2. The phase of `loose` is the
-    phase of Z1 relative to the displacement of the loose mass, Z1 - Z2.
+    phase of Z1 relative to Z1 - Z2, the displacement of the loose mass.
     """
     number = branches.orbit_branch.values
     first = np.flatnonzero(number[1:] == number[:-1])
@@ -90,7 +90,7 @@ def covered(part, lower=-np.inf, upper=np.inf):
 
 
 def coexisting(part, column):
-    """Return the width of the range of W in which orbits that differ in `column` coexist."""
+    """Return the total width in W of the overlaps of pieces that differ in the column `column`."""
     values = [ranges(same) for _, same in part.groupby(column)]
     if not values:
         return 0.0
@@ -162,7 +162,7 @@ def quiet(branches, free):
 
 
 def smallest_quiet(branches, free, frequency):
-    """Return a table of the smallest stable quiet orbit at each frequency, or raise Missing."""
+    """Return a table with the stable quiet orbit of least max |Z1| at each frequency."""
     orbits = smallest(quiet(branches, free), frequency)
     missing = np.setdiff1d(frequency, orbits.frequency)
     if len(missing):

@@ -108,7 +108,6 @@ class Study(system.WithOscillator):
             yield problem(("chunks",), config.chunks, reason)
 
     def cells(self) -> int:
-        """Return the number of cells (points of the grid)."""
         return math.prod(points(getattr(self, key)) for key in AXES)
 
     def chunk(self, config, chunk) -> dict:
@@ -134,7 +133,7 @@ def points(given) -> int:
 
 
 def even(given) -> dict:
-    """Return a dict such as {"linspace": [1, 2, 5]}, which a job turns into points of an axis."""
+    """Return a dict from which a job makes the points of an axis (one, if `given` is a number)."""
     return given.even() if hasattr(given, "even") else {"linspace": [given, given, 1]}
 
 

@@ -66,7 +66,6 @@ class Search(Section):
     life_periods: count("forcing cycles of the runs `life_runs`", **bounds.LIFETIME_RANGE)
 
     def job(self, config, starts) -> dict:
-        """Return the parameters of a job that searches for motions from `starts` random states."""
         return {"starts": starts, "radius": self.radius, "seed": config.seed}
 
 
@@ -89,7 +88,6 @@ class Settling(Section):
     )
 
     def job(self) -> dict:
-        """Return a dict from which a job makes the parameter `settling`."""
         return {"settling": {"Settling": dict(self)}}
 
     def contradictions(self, path, config):

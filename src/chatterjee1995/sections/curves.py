@@ -46,7 +46,6 @@ class Curve(system.MaybeWithDamper):
                 yield problem((*path, "clearance"), self.clearance, reason)
 
     def span(self, config):
-        """Return the range of frequencies of the curve."""
         return config.oscillators[self.oscillator].frequencies
 
     @stage(

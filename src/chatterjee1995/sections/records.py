@@ -10,8 +10,8 @@ class Stage(NamedTuple):
 
     name: str
     section: str
-    # A method of the section. It takes the whole configuration and returns the arguments of
-    # `function`. The job turns an argument such as {"Damper": {...}} into an object.
+    # A method of each entry: it takes the configuration and returns the arguments of `function`.
+    # The module `workflow.job` makes objects from arguments such as {"Damper": {...}}.
     job: Callable
     function: str  # "module:name" of the function that computes the dataset
     message: str  # printed for each job
@@ -25,7 +25,10 @@ class Stage(NamedTuple):
 
 
 def stage(function, message, **options):
-    """Return a decorator that makes a method a stage, by default with the name of the method."""
+    """Return a decorator. The method that it decorates becomes the field `job` of a `Stage`.
+
+    The arguments set further fields of this `Stage`. By default it has the name of the method.
+    """
 
     def mark(job):
         job.stage = {"name": job.__name__, "function": function, "message": message} | options
@@ -47,7 +50,6 @@ class Shown:
 
     @property
     def source(self) -> str:
-        """Full name of `module`, with its packages."""
         return self.module if "." in self.module else f"chatterjee1995.{self.room}.{self.module}"
 
 

@@ -4,7 +4,6 @@ from chatterjee1995.sections import balance, clearance, curves, machines, method
 from chatterjee1995.sections.records import Kind, Stage, Table
 
 SCHEMATIC = Kind("schematic", "design", "schematics", (), most=1)
-# Stages whose datasets the claims read.
 CLAIMED = (
     "harmonic_balance design_orbit branches response motion collisions optimum subharmonic "
     "migration release_scan release_policies"

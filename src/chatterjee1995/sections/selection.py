@@ -1,4 +1,4 @@
-"""Entries and captions that belong to a stage, figure, table or chapter of the report."""
+"""Functions that read from the configuration what stages, figures, tables and chapters need."""
 
 import re
 
@@ -31,10 +31,7 @@ def job(config, stage, name) -> dict:
 
 
 def read_by(config, stage, name) -> dict:
-    """Return the stages whose datasets of the entry `name` are read by the stage `stage`.
-
-    The result is a dict: name of an argument that receives datasets -> names of their stages.
-    """
+    """Return a dict: argument of a stage's function -> stages that compute it for an entry."""
     return {
         key: [each for each in stages if name in entries(config, each)]
         for key, stages in STAGES[stage].reads.items()
@@ -133,7 +130,7 @@ def _case(config, section, name):
 
 
 def caption(title, cases, text, remark) -> str:
-    """Return a figure's caption in reStructuredText, with symbols as on the axes (Ω for W)."""
+    """Return a figure's caption: title, parameters (`cases`), text shared by its kind, remark."""
     head = f"{title}: {cases}." if cases else f"{title}."
     whole = "\n".join(part for part in (head, text.strip(), remark) if part)
     whole = re.sub(r"\bW(?=p?(²|\b))", "Ω", whole)

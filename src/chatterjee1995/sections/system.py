@@ -72,16 +72,17 @@ class Range(Section):
             yield problem((*path, "first"), self.first, reason)
 
     def even(self, points=None) -> dict:
-        """Return a dict from which a job makes evenly spaced values over the range."""
         return {"linspace": [self.first, self.last, points or self.points]}
 
     def geometric(self, points=None) -> dict:
-        """Return a dict from which a job makes a geometric series of values over the range."""
         return {"geomspace": [self.first, self.last, points or self.points]}
 
 
 def range_of(kind, *, points=False):
-    """Return a class of ranges with ends of the type `kind`. If `points`, it has a key `points`."""
+    """Return a class with the keys `first` and `last`, the ends of a range, of the type `kind`.
+
+    If `points` is true, the class also has the key `points`, the number of values in the range.
+    """
     types = {"first": kind, "last": kind} | (
         {"points": points_of("points of the grid")} if points else {}
     )
@@ -97,7 +98,6 @@ class Oscillators(keys_of(OSCILLATOR, needed=("damping", "linear_frequency"))):
     frequencies: FREQUENCIES
 
     def values(self) -> dict:
-        """Return the arguments of `Oscillator`."""
         return given(self, OSCILLATOR)
 
 
@@ -106,7 +106,8 @@ class WithOscillator(Section):
 
     oscillator: text("name of an entry of `oscillators`")
 
-    # Keys of numbers or lists. The product of the numbers and lengths must not exceed MOST_RUNS.
+    # Each of these keys holds a number n, or a list with n values. The product of all n must not
+    # exceed MOST_RUNS.
     counts: ClassVar = ()
 
     def contradictions(self, path, config):
@@ -124,7 +125,6 @@ class WithDamper(keys_of(DAMPER, needed=NEEDED, without=[COMMON]), WithOscillato
     """An entry with an oscillator and a damper."""
 
     def system(self, config) -> dict:
-        """Return a dict from which a job makes the oscillator and the damper."""
         return super().system(config) | {"damper": {"Damper": damper_values(self, config)}}
 
 
@@ -143,11 +143,9 @@ class MaybeWithDamper(keys_of(DAMPER, without=[COMMON]), WithOscillator):
                 yield missing((*path, key), reason)
 
     def has_damper(self) -> bool:
-        """Return whether the entry gives the parameters of a damper."""
         return bool(given(self, self.whole))
 
     def system(self, config) -> dict:
-        """Return a dict from which a job makes the oscillator, and the damper if there is one."""
         damper = {"Damper": damper_values(self, config)} if self.has_damper() else None
         return super().system(config) | {"damper": damper}
 
@@ -162,7 +160,10 @@ def damper_values(entry, config) -> dict:
 
 
 def too_many(path, section, keys):
-    """Yield an error line if the product of the numbers at `keys` is larger than MOST_RUNS."""
+    """Yield an error line if the numbers at `keys`, multiplied together, exceed MOST_RUNS.
+
+    A list counts as its length. `path` is the place of `section` in the configuration.
+    """
     counts = []
     for key in keys:
         value = section

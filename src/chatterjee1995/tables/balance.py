@@ -138,7 +138,6 @@ def balance_map(datasets) -> pd.DataFrame:
 
 
 def _answers(meaning):
-    """Split a verdict, such as "stable_absent", into what harmonic balance says and the truth."""
     balance, _, truth = meaning.partition("_")
     if balance not in ("none", "stable", "unstable") or not truth:
         balance, truth = "", meaning

@@ -62,7 +62,10 @@ def models(datasets) -> pd.DataFrame:
 
 
 def cheapest(data, labels):
-    """Return the index of the accurate run with the least work by a method in `labels`, or None."""
+    """Return the index of the cheapest run with the required accuracy, or None if there is none.
+
+    Only runs of the methods `labels` count.
+    """
     meets = decode(data["meets_accuracy"]).values == "yes"
     meets &= np.isin(data["method"].values, labels)
     work = np.where(meets, data["operations"].values, np.inf)

@@ -10,7 +10,6 @@ from chatterjee1995.reading.datasets import Missing
 from chatterjee1995.tables.files import DAMPER, parameter_columns
 from impact_damper.data.motion_variables import OUTCOME
 
-# Stage of the pipeline -> words for it in the table of outcomes.
 SWEPT = {
     "response": "frequency responses",
     "subharmonic": "starts on the free subharmonic",
@@ -57,7 +56,7 @@ def _outcomes(stage, name, counts):
 
 
 def quasi_periodic(datasets) -> pd.DataFrame:
-    """Return a table of quasi-periodic motions: frequencies, and how many starts lead to them."""
+    """Return a table of quasi-periodic motions, one row for each motion of each curve."""
     rows = []
     for name, data in reading.damped(datasets, "response").items():
         for motion in _motions(data, reading.is_outcome(data, "quasi_periodic")):
