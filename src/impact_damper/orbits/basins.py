@@ -291,8 +291,8 @@ def _attractor_data(p, found, phase):
 NEAR = 1e-5
 # A stable manifold is computed on each side of its saddle from FIRST_POINTS states. They are
 # followed backwards in time over at most MOST_PERIODS forcing cycles. In each cycle, new states are
-# inserted at most MOST_HALVINGS times between neighbouring states that are too far apart. The
-# computation ends with more than MOST_POINTS states in `window` or MOST_IN_ALL in `reach`.
+# inserted at most MOST_HALVINGS times between neighbouring states that are too far apart. A side is
+# given up when it has more than MOST_POINTS states in `window`, or MOST_IN_ALL states in `reach`.
 MOST_PERIODS, MOST_POINTS, MOST_IN_ALL, MOST_HALVINGS = 60, 40_000, 100_000, 12
 FIRST_POINTS = 33
 # Neighbouring states of a manifold differ by at most `spacing` in Z1 and Z1' (`spacing` is the size
@@ -396,10 +396,12 @@ SHOCKS = (256, 64, 64, 64)
 
 
 def robustness(p, found, phase, widest, shock, within) -> dict:
-    """Return four dataset variables for each attractor. A shock is a jump of Z1'.
+    """Return dataset variables with a value for each attractor in `found`, a `Labelled` plane.
 
-    They are: the median convergence time; the share of states with a convergence time up to
-    `within`; the minimal critical shock, at most `widest`; and the convergence time after `shock`.
+    attractor_time: Median convergence time of the states of the plane that lead to the attractor.
+    attractor_within: Share of all states of the plane that lead to it within `within` cycles.
+    attractor_shock: Smallest jump of Z1', at most `widest`, that drives a motion away from it.
+    attractor_return: Longest convergence time after a jump of Z1' by -`shock` or `shock`.
     """
     rows = []
     for index, record in enumerate(found.records):
@@ -416,7 +418,6 @@ def robustness(p, found, phase, widest, shock, within) -> dict:
 
 
 def _after(found, index, states, shocks):
-    """Return for each shock whether a motion fails to return, and the longest convergence time."""
     pushed = np.repeat(states, len(shocks), axis=0)
     pushed[:, 1::2] += np.tile(shocks, len(states))[:, None]
     labels, periods = (each.reshape(len(states), -1) for each in found.label(pushed))

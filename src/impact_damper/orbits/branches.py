@@ -15,8 +15,8 @@ from impact_damper.orbits.segments import NUDGE
 MOST_POINTS = 10_000
 # Two orbits are the same if their states at W T = pi/2 differ by less than SAME.
 SAME = 1e-5
-# `Branch.holds` searches for an orbit on a step only if the step has a similar max |Z1|. From the
-# orbit to the step's first point, max |Z1| may differ by NEARBY plus its change along the step.
+# `Branch.holds` searches for an orbit only on some steps. At the first point of such a step, max
+# |Z1| differs from the orbit's by at most NEARBY + |change of max |Z1| along the step|.
 NEARBY = 0.02
 # `Branch.family` is extrapolated to parameters at most this far outside the range of the branch.
 EXTENDED = 1e-3
@@ -38,13 +38,13 @@ CLEAR_STEP = 1e-4
 class Branch:
     """A branch of orbits. `family(value)` is the array `p` of all parameters for a point's `value`.
 
-    `events` holds pairs: the index in `points` of the event's point, and the event. `lost` is how
-    many events were not located. `ends` says why the branch ends at its first and last point:
-
-    range_ends: The parameter is at the end of its range. closed: The branch is a closed curve.
-    symmetry_breaking: The branch meets a branch of symmetric orbits. period_doubling: The branch
-    meets a branch of half the period. contact_lost: All contacts begin at low speed. lost: Newton's
-    method fails. point_limit: There are MOST_POINTS points. unstable: Too many unstable orbits.
+    events: Pairs of the index in `points` of the event's point, and the event.
+    lost: Number of events that were not located.
+    ends: Two words that say why the branch ends at its first and at its last point. "range_ends":
+    The parameter is at the end of its range. "closed": The branch is a closed curve. "unstable":
+    Too many orbits are unstable. "lost": Newton's method fails. "point_limit": There are
+    MOST_POINTS points. "symmetry_breaking": The branch meets a branch of symmetric orbits.
+    "period_doubling": It meets a branch of half the period. "contact_lost": All contacts are slow.
     """
 
     family: Callable[[float], np.ndarray]
@@ -81,14 +81,17 @@ class Branch:
 
 
 def between(point, ahead, value):
-    """Return the point with the parameter `value` between `point` and `ahead`, or None."""
+    """Return the point with the parameter `value` between `point` and `ahead`.
+
+    The two orbits may have different segments. If Newton's method fails, return None.
+    """
     if np.array_equal(point.problem.phases, ahead.problem.phases):
         return continuation.point_at_value(point, ahead, value)
     return point.problem.at_value(point, value)
 
 
 def follow_branch(family, orbit, value, span, beyond=np.inf) -> Branch:
-    """Follow the branch of an orbit to smaller and to larger parameters, within `span`.
+    """Follow the branch of an orbit to smaller and to larger parameters, within the range `span`.
 
     `value` is the orbit's parameter. `family(value)` returns the array `p` of all parameters. In
     each direction the branch ends as soon as more than `beyond` orbits in a row are unstable.
@@ -212,9 +215,10 @@ def _ending(piece, first, span):
 
     1. The kind of the end, as in `Branch.ends`, or "" if the branch does not end on this piece.
     2. The events on the piece. If the branch ends on it, only the events up to the end.
-    3. True if the branch ends at an event that was not located and is not counted in the piece.
+    3. What the caller must add to the number of events that were not located: 0 or 1.
 
     `first` is the branch's first point, or None if the branch has too few points to be closed.
+    `span` is the range of the parameter.
     """
     start, ahead, located, missed = piece
     met = None
@@ -254,17 +258,12 @@ def _through_grazing(point, reach):
 
 
 def _meeting(events, orbit):
-    """Return the index of the event at which a branch meets a more symmetric branch, or None.
-
-    The event is a fold at which `Orbit.deviation` is much smaller than for `orbit`. If there are
-    folds, but no such fold, return None. If there is no fold in `events`, the fold at the meeting
-    was not located. Then return len(events).
-    """
     folds = [k for k, event in enumerate(events) if event.kind == "fold"]
     least = VANISHED * np.max(np.abs(orbit.deviation))
     for k in folds:
         if np.max(np.abs(events[k].point.orbit.deviation)) < least:
             return k
+    # If `events` has no fold, the fold at which the branches meet was not located.
     return None if folds else len(events)
 
 

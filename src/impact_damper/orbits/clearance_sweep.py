@@ -153,12 +153,6 @@ def _peak_rule(oscillator, mass_ratio):
 
 
 def _quiet_motions(data, clearances, rule):
-    """Return for each clearance the state and max |Z1| of the quiet orbit. Also return an index.
-
-    The index selects, of all clearances with a quiet orbit, the one closest to `rule`. It is None
-    if there is no quiet orbit. The smallest quiet orbit there lies on one branch, and quiet orbits
-    on any other branch are ignored. At a clearance without a quiet orbit max |Z1| is NaN.
-    """
     names = "outcome period contacts asymmetry maximum_displacement branch state"
     table = {name: data[name][1] for name in names.split()}
     quiet = is_settled(table) & is_symmetric_pair(table)
@@ -166,6 +160,7 @@ def _quiet_motions(data, clearances, rule):
     rows, anchor = np.flatnonzero(quiet.any(axis=1)), None
     if len(rows):
         anchor = rows[np.argmin(np.abs(np.log(clearances[rows] / rule)))]
+        # Keep the quiet orbits on one branch: that of the smallest one at the clearance `anchor`.
         quiet &= table["branch"] == table["branch"][anchor, np.nanargmin(size[anchor])]
     column, row = np.argmax(quiet, axis=1), np.arange(len(clearances))
     sizes = np.where(quiet.any(axis=1), size[row, column], np.nan)
@@ -211,6 +206,7 @@ def minimum_table(values, sizes, size_at, span):
     """Return the dataset variables that describe the smallest max |Z1| of stable quiet orbits.
 
     `values` and `sizes` are clearances and max |Z1|. `size_at` computes max |Z1| for a clearance.
+    `span` is the least and the greatest clearance of the sweep.
     """
     if not len(values):
         return {

@@ -66,15 +66,17 @@ class Point(NamedTuple):
 class Problem:
     """The equations for the orbits of a branch: each segment ends where the next one begins.
 
-    The squared distance of two points is the sum of two terms: the squared difference of their
-    parameters, and the mean over the segments of the squared distance of their first states.
+    Two points with the parameters v and w have the squared distance (v - w)^2 + D. D is the mean
+    over the segments of |s - t|^2. A segment begins with the state s in one point, t in the other.
 
-    `family(value)` is the array `p` of all parameters for `Point.value`. The segments begin and the
-    last one ends at `phases`. If `symmetric`, all orbits are symmetric, and the segments cover half
-    the period. `damped`: there is a damper. `loose` is used without a damper only: it is the
-    constant (Z2 - Z1, Z2' - Z1'), from which Z2 and Z2' follow. `rough` is the largest norm of a
-    matrix in `Orbit.factors` when `recut` last divided the orbit into several segments. It is 0 for
-    one segment and before `recut` is first called.
+    family: Function of `Point.value` that returns the array `p` of all parameters.
+    periods: Period in forcing cycles.
+    phases: Phases W T at which the segments begin, and at which the last segment ends.
+    loose: The constant (Z2 - Z1, Z2' - Z1'), from which Z2 and Z2' follow if there is no damper.
+    damped: Whether there is a damper.
+    symmetric: Whether all orbits are symmetric. The segments then cover half the period.
+    rough: Largest norm of all matrices in `Orbit.factors`, if `recut` made several segments, at the
+    point where it made them. `holds_still` compares later norms with it. Otherwise `rough` is 0.
     """
 
     family: Callable[[float], np.ndarray]
@@ -87,7 +89,7 @@ class Problem:
 
     @classmethod
     def of(cls, family, orbit, *, symmetric=None):
-        """Return the `Problem` of an orbit. If `symmetric` is None, derive it from the orbit."""
+        """Return the `Problem` of an orbit. `family` and `symmetric` are fields of `Problem`."""
         if symmetric is None:
             symmetric = bool(orbit.record["asymmetry"] < SYMMETRIC)
         cycle = orbit.periods * TURN * (0.5 if symmetric else 1.0)
@@ -118,7 +120,7 @@ class Problem:
 
     @cached_property
     def metric(self):
-        """Weights of the squared unknowns in the squared length of a vector, shape (m n + 1,)."""
+        """Weight of each unknown in `length`: 1 for the parameter, otherwise 1 / segments."""
         m = len(self.phases) - 1
         return np.append(np.full(m * self.size, 1 / m), 1.0)
 
@@ -234,7 +236,7 @@ def point_at_distance(origin, point, ahead, distance):
 
 
 def point_at_value(point, ahead, value):
-    """Return the point with the parameter `value` between `point` and `ahead`, or None."""
+    """Return the point at parameter `value` between two points. None if Newton's method fails."""
     problem, chord = point.problem, ahead.x - point.x
 
     def beyond(fraction):

@@ -24,7 +24,8 @@ RATIO, LEAST, MOST = 10.0, 1e-13, 2e-5
 HALVINGS, HALVINGS_BETWEEN = 8, 3
 # A step led to a more symmetric branch if max |`Orbit.deviation`| fell to FALLEN x its old value.
 FALLEN = 0.01
-# If contacts vanish in a grazing, the extremum is this far from the wall at two points beyond it.
+# If contacts vanish in a grazing, the branch is computed at two points behind the grazing. At these
+# points the extremum of Z2 is BESIDE[0] and BESIDE[1] away from the wall.
 BESIDE = 1e-9, 2e-5
 # Newton's method fails if it must change an unknown by LARGEST or more. It has converged only if
 # the error of the height is below CLOSE x |height| + ROUNDING.
@@ -108,6 +109,7 @@ def through_grazing(point, reach):
     turn = next_grazing(point, 2 * reach)
     if turn is None:
         return None
+    # The orbits have more contacts on the side of the grazing where `sharp` x height is positive.
     sharp = 1 if turn.outer else -1
     direction = int(np.sign(turn.gradient @ point.tangent))
     targets = _targets(turn.height, sharp, direction)
@@ -125,7 +127,6 @@ def through_grazing(point, reach):
 
 
 def _along(point, turn, targets, direction, contacts):
-    """Return points, heights and extrema at the heights `targets`, until a point is not found."""
     points, heights, turns = [point], [turn.height], [turn]
     pending, halvings = targets[::-1], 0
     while pending and halvings <= HALVINGS:
@@ -133,6 +134,7 @@ def _along(point, turn, targets, direction, contacts):
         ratio = target / heights[-1]
         x = guess(points[-1], turns[-1], target)
         found = at_height(point.problem, x, turns[-1], target, direction)
+        # An orbit with another number of contacts lies on another branch.
         stays = found is not None and len(found[0].orbit.sequence) == contacts(target)
         if stays and ratio > 0:
             sizes = [np.max(np.abs(each.orbit.deviation)) for each in (points[-1], found[0])]
@@ -154,7 +156,6 @@ def _before(height, target):
 
 
 def _targets(height, sharp, direction):
-    """Return the heights at which points are computed, in the order along the branch."""
     fine = LEAST * RATIO ** np.arange(1 + int(np.log(MOST / LEAST) / np.log(RATIO)))
     if direction == sharp:
         return list(sharp * fine)

@@ -106,7 +106,7 @@ class Orbit:
 
     @property
     def amplification(self):
-        """Largest factor by which a small disturbance can grow over all segments."""
+        """Largest growth of a small disturbance from the first state to the end of all segments."""
         return np.linalg.norm(self.matrix, 2) if np.all(np.isfinite(self.matrix)) else np.inf
 
     @property
@@ -211,8 +211,8 @@ class Orbit:
         """Deviation from symmetry or, if `periods` is even, from an orbit of half the period.
 
         It is the first state plus the state half a period later, or for even `periods` the first
-        state minus the state half a period later, shape (4,). If `sign` is -1, the orbit is
-        symmetric. Then (1, 1, 1, 1) is returned, since it does not change its sign along a branch.
+        state minus the state half a period later, shape (4,). A symmetric orbit (`sign` -1) gets
+        (1, 1, 1, 1) instead of zeros, because callers look for changes of sign along a branch.
         """
         if self.sign < 0:
             return np.ones(4)

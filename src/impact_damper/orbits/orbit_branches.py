@@ -36,7 +36,7 @@ def periodic_orbit(system, damper, frequency, state, *, period=1, phase=None):
     frequency : float
         Forcing frequency W, or Hz for a machine.
     state : sequence of 4 floats, or 2 without a damper; or xarray.DataArray
-        Z1, Z1', Z2, Z2' near the orbit.
+        Z1, Z1', Z2, Z2' near the orbit, for a machine in m and m/s.
     period : int
         Period n of the orbit in forcing cycles.
     phase : float, optional
@@ -97,14 +97,15 @@ def orbit_branches(
 ):
     """Follow branches of periodic orbits, stable or not, over a parameter.
 
-    With a frequency and a state, the function follows the branch of the orbit near the state. With
-    `motions`, it follows over the frequency every branch through a settled motion. It then follows
-    further branches in these cases:
+    With a frequency and a state, the function follows the branch of the orbit near the state, and
+    no other. With `motions`, it follows over the frequency every branch through a settled motion,
+    and further branches in these cases:
 
-    - A branch of period 1 or 3 loses its symmetry, or doubles its period next to stable orbits. The
-      new branch is followed.
-    - A branch of another period loses its symmetry, or doubles its period, next to stable orbits.
-      The new branch is followed if it begins with stable orbits and has a period up to 9.
+    - A branch of period 1 or 3 loses its symmetry. The new branch is followed.
+    - A branch of period 1 or 3 doubles its period. The new branch is followed if the old one has
+      stable orbits there.
+    - A branch of another period loses its symmetry or doubles its period. The new branch is
+      followed if it has a period up to 9, and both branches have stable orbits there.
     - A branch with a period up to 4 ends on a branch of symmetric orbits, or on a branch of half
       the period. The branch on which it ends is followed.
 
@@ -138,9 +139,9 @@ def orbit_branches(
         monodromy matrix. `orbit_status` says how reliable the orbit is. For each `event`: its kind,
         which is fold, symmetry breaking (a loss of symmetry), period doubling, Neimark-Sacker
         point, grazing (a contact appears or vanishes in flight) or merging (two contacts with one
-        wall become one, or the reverse). For each branch: the reason why it ends at each edge, its
-        first and its last point. With `motions`: `seeds`, the number of settled motions (with a
-        damper only motions with contacts), and `seeds_lost`, the number of seeds near which no
+        wall become one, or the reverse). For each branch: why it ends at its first point (`edge`
+        lower) and at its last (upper). With `motions`: `seeds`, the number of settled motions (with
+        a damper only motions with contacts), and `seeds_lost`, the number of seeds near which no
         orbit of the seed's period was found. A branch and its mirror image count as one branch.
 
     Raises
@@ -278,7 +279,11 @@ def orbit_variables(pairs):
 
 
 def branches_dataset(branches, back, parameters, title, model=None, more=None):
-    """Return a dataset of branches and variables `more`. Parameters are stored as back(value)."""
+    """Return a dataset of branches, with the points and events of each, and with variables `more`.
+
+    back(`Point.value`) is stored as the value of the parameter: `back` is np.exp if `Point.value`
+    is a logarithm, otherwise float. `parameters`, `title` and `model` are passed to `dataset`.
+    """
     points = [(back(point.value), point.orbit) for branch in branches for point in branch.points]
     sizes = [len(branch.points) for branch in branches]
     events = [(number, *pair) for number, branch in enumerate(branches) for pair in branch.events]

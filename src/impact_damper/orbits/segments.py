@@ -25,12 +25,12 @@ from impact_damper.kernel.tangents import advance
 from impact_damper.model.packed import CLEARANCE, COUNT, FREQUENCY
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 
-# Two multipliers are computed separately, by orthogonal iteration, if the ratio of their moduli
-# exceeds APART. Other multipliers are computed together as the eigenvalues of a small matrix.
+# Orthogonal iteration divides the multipliers into groups of similar modulus. The multipliers of a
+# group are the eigenvalues of a small matrix. From one group to the next the modulus falls by more
+# than the factor APART.
 APART = 30.0
 # Orthogonal iteration ends after SWEEPS passes over all segments, or if a pass changes the basis by
-# less than SETTLED. Two multipliers are computed separately only if the last pass changed the basis
-# by less than COUPLED.
+# less than SETTLED. If the last pass changes the basis by COUPLED or more, groups are joined.
 SWEEPS, SETTLED, COUPLED = 14, 1e-15, 1e-8
 # If possible, a small disturbance grows by less than this factor along a segment.
 AMPLIFIED = 30.0

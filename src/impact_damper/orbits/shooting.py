@@ -31,8 +31,8 @@ def shoot(p, state, periods, phase, *, symmetric=False) -> Orbit:
 def find_orbit(p, state, periods=1, phase=STROBE) -> Orbit:
     """Find the orbit near a state at a phase W T. `Orbit.converged` tells whether this succeeded.
 
-    Without contacts only Z1 and Z1' are unknown, and the loose mass keeps its state. The first
-    phase of a converged orbit lies in a flight.
+    Without contacts only Z1 and Z1' are unknown. Z2 - Z1 and Z2' - Z1', which describe the loose
+    mass alone, stay as in `state`. The first phase of a converged orbit lies in a flight.
     """
     orbit = newton(shoot(p, state, periods, phase))
     if orbit.amplification > AMPLIFYING:

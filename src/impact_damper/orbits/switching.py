@@ -19,11 +19,12 @@ from impact_damper.orbits.shooting import shoot
 # A first guess for a point of the new branch lies at each of DISTANCES from the bifurcation. The
 # point found must be at most ASIDE times this distance away from the first guess.
 DISTANCES, ASIDE = (2e-2, 4e-3, 8e-4, 1e-4, 1e-5), 0.5
-# If no point is found, a grazing may be near. Then an extremum of Z2 is selected. Its height is
-# |Z2| - d0. For each s in SHARES a point is sought at which the height has changed by s times the
-# height at the bifurcation. The first guess must lie within REACH of the bifurcation. MISSED bounds
-# the relative difference of two distances from the bifurcation: of the point found, and of the
-# first guess. At most PASSAGES points are followed through the grazing.
+# If no point is found, a grazing may be near. Let H be |Z2| - d0 in an extremum of Z2. The
+# extremum is chosen whose H changes by the largest percentage along the new branch. For each s in
+# SHARES a point is searched for at which H is 1 + s times its value at the bifurcation.
+# REACH: Largest distance from the bifurcation to the first guess.
+# MISSED: Largest |distance from the bifurcation to the point found / distance to the guess - 1|.
+# PASSAGES: Largest number of points found from which the branch is followed through the grazing.
 SHARES, MISSED, REACH, PASSAGES = (0.5, 0.2, 0.1, 0.05, 0.02), 0.5, 1e-3, 2
 # Kinds of events at which another branch begins.
 LEAVING = ("symmetry_breaking", "period_doubling")
@@ -56,7 +57,6 @@ def other_branch(event, *, stable=False) -> Point | None:
 
 
 def _leaving(event):
-    """Return for the branch that begins at `event`: `Problem`, unknowns x and direction there."""
     point, problem = event.point, event.point.problem
     doubled = event.kind == "period_doubling"
     # In one `problem.cycle` the state of the old orbit changes by the factor `sign`. A small
@@ -109,10 +109,12 @@ def _at_heights(leaving):
             yield found[0]
 
 
-# Branches that begin on a branch with a period in WHOLE are followed, stable or not. Branches that
-# begin on any other branch are followed if they begin stable and have a period up to STABLE. If a
-# branch with a period up to MET ends at a branch of symmetric orbits, or at a branch of half the
-# period, this second branch is followed too.
+# A branch that begins at an event of another branch A is followed if one of these is true:
+# - A has a period in WHOLE and loses its symmetry.
+# - A has a period in WHOLE and doubles its period, and an orbit of A beside the event is stable.
+# - A has an orbit beside the event that is stable. The new branch begins with a stable orbit and
+#   has a period up to STABLE.
+# If a branch with a period up to MET ends at a more symmetric branch, this branch is followed too.
 WHOLE, STABLE, MET = (1, 3), 9, 4
 # The end of a branch and an event of another branch are the same point if they differ by less than
 # SAME_VALUE in the parameter and by less than SAME_SIZE in max |Z1|.
@@ -122,8 +124,9 @@ NEAR = 1e-9
 
 
 def follow_others(branches, follow):
-    """Append to `branches` the branches that begin at an event, or on which another branch ends.
+    """Append to the list `branches` the branches that meet one of its branches.
 
+    Branches that meet the appended ones are appended too. WHOLE, STABLE and MET exclude some.
     `follow(orbit, value)` returns the branch through an orbit whose parameter is `value`.
     """
     for branch in branches:
@@ -138,7 +141,6 @@ def follow_others(branches, follow):
 
 
 def _more_symmetric(branches, branch, edge):
-    """Return a point of the branch at which `branch` ends, or None if that branch is known."""
     kind, point = branch.ends[edge], branch.points[edge]
     orbit, symmetric = point.orbit, kind == "symmetry_breaking"
     if kind not in LEAVING or orbit.periods > MET:
@@ -154,12 +156,6 @@ def _more_symmetric(branches, branch, edge):
 
 
 def _new_branch(branches, branch, place, event):
-    """Return a point of the branch that begins at `event`, or None if it is not to be followed.
-
-    `place` is the index of the event's point in `branch.points`. A known branch is not followed. At
-    a period doubling, and at any event of a `branch` with a period other than 1 or 3, the new
-    branch is followed only if an orbit of `branch` beside the event is stable.
-    """
     ends = {0: branch.ends[0], len(branch.points) - 1: branch.ends[1]}
     if event.kind not in LEAVING or ends.get(place) == event.kind:
         return None

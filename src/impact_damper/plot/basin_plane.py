@@ -8,7 +8,8 @@ from impact_damper.data.variables import BASIN_LABEL
 from impact_damper.plot import style
 from impact_damper.plot.sheets import dataset_in, sheet
 
-# Colours of attractors by rising displacement. Of two or more, the largest has the last colour.
+# Colours of attractors in the order of displacement. The attractor with the largest displacement
+# has the last colour, unless it is the only attractor.
 COLOURS = (style.SKY, style.VERMILION, style.PURPLE, "#F7E7A6")
 CHAOS = style.ORANGE
 # Colours of states that lead to no attractor, for the labels -6 to -1 (`BASIN_LABEL`).

@@ -32,7 +32,8 @@ SIZES = {
 def response(data, axes=None):
     """Draw displacement against forcing frequency.
 
-    Stable orbits with a damper are left out if motions with a damper are given.
+    If motions with a damper are given (results of `frequency_response` or
+    `subharmonic_suppression`), stable orbits of `orbit_branches` with a damper are not drawn.
 
     Parameters
     ----------
@@ -164,7 +165,6 @@ def _branch_lines(motions, chosen):
 
 
 def _draw_unsettled(axes, motions, looks):
-    """Draw motions that have not settled. Chaos that has ended has the look "chaotic_transient"."""
     for status, look in looks.items():
         outcome = "chaotic" if status == "chaotic_transient" else status
         chosen = motions["outcome"].values == flag("outcome", outcome)

@@ -15,7 +15,8 @@ def datasets_in(data, takes, words) -> list[xr.Dataset]:
     """Return one or several datasets as a list.
 
     The function `takes` returns whether a dataset is allowed. `words` names the functions whose
-    results are allowed. Raise TypeError for other datasets, or if not all are of one machine.
+    results are allowed. Other datasets raise TypeError. Several datasets must all be dimensionless,
+    or all be of the same machine; otherwise raise TypeError.
     """
     found = [data] if isinstance(data, xr.Dataset) else data
     if not isinstance(found, (list, tuple)) or not found:

@@ -22,7 +22,6 @@ LOOKS = {
     "chaotic": (style.ORANGE, "...."),
     "others": (style.BLACK, ""),
 }
-# Outcome of a motion that has not settled -> kind of motion.
 OUTCOMES = {
     "quasi_periodic": "quasi-periodic",
     "non_colliding": "no contact",

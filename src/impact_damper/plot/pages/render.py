@@ -21,7 +21,6 @@ from impact_damper.model.text import number, percent, with_unit
 from impact_damper.plot import style
 from impact_damper.plot.machine_figures import ENDLESS, FIGURES
 
-# Resolution of the figures on a page, in dots per inch.
 DPI = 220
 # A page of this package is recognised by this text, the beginning of a line of HTML.
 GENERATOR = '<meta name="generator" content="impact-damper'
@@ -60,8 +59,8 @@ def check_folder(folder, machine, force) -> None:
 def write_page(name, data, folder, file=None, date="", figures=FIGURES) -> None:
     """Write `index.html`, the page of the machine `name`, into a folder.
 
-    `file` is the name of the file with `data`, by default `name`.nc. `figures` maps the name of a
-    figure to a function of `data` that returns the figure or None.
+    `file` is the name of the data file, by default `name`.nc, and `date` the day it was written.
+    `figures` maps the name of a figure to a function of `data` that returns the figure or None.
     """
     drawn, pictures = {each: draw(data) for each, draw in figures.items()}, {}
     for each, figure in drawn.items():
@@ -74,7 +73,7 @@ def write_page(name, data, folder, file=None, date="", figures=FIGURES) -> None:
 
 
 def page_of(name, data, pictures, file=None, date="") -> str:
-    """Return the page of the machine `name` in HTML. `pictures` maps figure names to PNG data."""
+    """Return the page in HTML (see `write_page`). `pictures` maps names of figures to PNG data."""
     numbers = numbers_of(data)
     numbers |= {
         "title": f"Impact damper for the machine {name.replace('_', ' ')}",
@@ -253,7 +252,6 @@ def _peak(data, name) -> SimpleNamespace:
 
 
 def _worst_values(data):
-    """Return texts such as "gap +5 %", the deviations from nominal values in the worst set."""
     factors = data["promise_factor"].values[int(data["promised_set"])]
     return [
         f"{QUANTITIES[str(name)]} {'+' if factor > 1 else '-'}{percent(abs(factor - 1))}"
@@ -292,7 +290,7 @@ def _condition(data):
     if "force_map_displacement" in data:
         shares = data["force_share"].values
         sizes = data["force_map_displacement"].max("operating_frequency").values
-        # Above the given excitation, growth in proportion to the excitation keeps the promise.
+        # For more than the given excitation the bound rises in proportion to the excitation.
         kept = sizes <= KEEPS * promised * np.maximum(shares, 1)
         for step in (1, -1):
             k = int(np.argmin(np.abs(shares - 1)))
