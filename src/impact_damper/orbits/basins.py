@@ -396,7 +396,7 @@ SHOCKS = (256, 64, 64, 64)
 
 
 def robustness(p, found, phase, widest, shock, within) -> dict:
-    """Return dataset variables with a value for each attractor in `found`, a `Labelled` plane.
+    """Return dataset variables with a value for each attractor of the `Labelled` plane `found`.
 
     attractor_time: Median convergence time of the states of the plane that lead to the attractor.
     attractor_within: Share of all states of the plane that lead to it within `within` cycles.

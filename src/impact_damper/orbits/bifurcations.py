@@ -43,8 +43,8 @@ class Event(NamedTuple):
 def _reversal(point, symmetric):
     """Return a number that is zero where one of `Orbit.cycle_multipliers` is -1.
 
-    There a symmetric orbit loses its symmetry, and another orbit doubles its period. If `symmetric`
-    is True, other orbits get the number 1. If it is False, symmetric orbits get the number 1.
+    There a symmetric orbit loses its symmetry, and an asymmetric orbit doubles its period. The
+    number is 1 for asymmetric orbits if `symmetric` is True, for symmetric orbits if it is False.
     """
     orbit = point.orbit
     return _product(orbit.cycle_multipliers + 1) if (orbit.sign < 0) == symmetric else 1.0

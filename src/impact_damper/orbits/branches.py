@@ -15,8 +15,8 @@ from impact_damper.orbits.segments import NUDGE
 MOST_POINTS = 10_000
 # Two orbits are the same if their states at W T = pi/2 differ by less than SAME.
 SAME = 1e-5
-# `Branch.holds` searches for an orbit only on some steps. At the first point of such a step, max
-# |Z1| differs from the orbit's by at most NEARBY + |change of max |Z1| along the step|.
+# `Branch.holds` searches for an orbit only on some steps. At the first point of such a step,
+# max |Z1| differs from max |Z1| of the orbit by at most NEARBY + the change along the step.
 NEARBY = 0.02
 # `Branch.family` is extrapolated to parameters at most this far outside the range of the branch.
 EXTENDED = 1e-3

@@ -160,7 +160,7 @@ def _quiet_motions(data, clearances, rule):
     rows, anchor = np.flatnonzero(quiet.any(axis=1)), None
     if len(rows):
         anchor = rows[np.argmin(np.abs(np.log(clearances[rows] / rule)))]
-        # Keep the quiet orbits on one branch: that of the smallest one at the clearance `anchor`.
+        # Keep one branch of quiet orbits: that of the smallest one at clearances[anchor].
         quiet &= table["branch"] == table["branch"][anchor, np.nanargmin(size[anchor])]
     column, row = np.argmax(quiet, axis=1), np.arange(len(clearances))
     sizes = np.where(quiet.any(axis=1), size[row, column], np.nan)

@@ -75,8 +75,8 @@ class Problem:
     loose: The constant (Z2 - Z1, Z2' - Z1'), from which Z2 and Z2' follow if there is no damper.
     damped: Whether there is a damper.
     symmetric: Whether all orbits are symmetric. The segments then cover half the period.
-    rough: Largest norm of all matrices in `Orbit.factors`, if `recut` made several segments, at the
-    point where it made them. `holds_still` compares later norms with it. Otherwise `rough` is 0.
+    rough: 0, or the largest of the norms of the matrices in `Orbit.factors` just after `recut` made
+    several segments. `holds_still` compares later norms with it.
     """
 
     family: Callable[[float], np.ndarray]
@@ -120,7 +120,7 @@ class Problem:
 
     @cached_property
     def metric(self):
-        """Weight of each unknown in `length`: 1 for the parameter, otherwise 1 / segments."""
+        """Weight of an unknown in `length`: 1 for the parameter, else 1 / (number of segments)."""
         m = len(self.phases) - 1
         return np.append(np.full(m * self.size, 1 / m), 1.0)
 

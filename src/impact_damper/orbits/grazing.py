@@ -24,8 +24,8 @@ RATIO, LEAST, MOST = 10.0, 1e-13, 2e-5
 HALVINGS, HALVINGS_BETWEEN = 8, 3
 # A step led to a more symmetric branch if max |`Orbit.deviation`| fell to FALLEN x its old value.
 FALLEN = 0.01
-# If contacts vanish in a grazing, the branch is computed at two points behind the grazing. At these
-# points the extremum of Z2 is BESIDE[0] and BESIDE[1] away from the wall.
+# If contacts vanish in a grazing, the branch is computed at two points on the side without them. At
+# these points the extremum of Z2 is BESIDE[0] and BESIDE[1] away from the wall.
 BESIDE = 1e-9, 2e-5
 # Newton's method fails if it must change an unknown by LARGEST or more. It has converged only if
 # the error of the height is below CLOSE x |height| + ROUNDING.

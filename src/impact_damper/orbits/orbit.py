@@ -106,7 +106,7 @@ class Orbit:
 
     @property
     def amplification(self):
-        """Largest growth of a small disturbance from the first state to the end of all segments."""
+        """Largest factor by which a disturbance of the first state grows up to the last state."""
         return np.linalg.norm(self.matrix, 2) if np.all(np.isfinite(self.matrix)) else np.inf
 
     @property
