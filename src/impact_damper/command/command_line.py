@@ -174,7 +174,7 @@ def response(
 
 
 def different(sizes, shares, alike=1e-4):
-    """Return {size: share}, by ascending size. Motions of nearly equal size count as one."""
+    """Return {displacement: share}. Displacements with a ratio up to 1 + `alike` count as one."""
     found, last = {}, -1.0
     for size, share in sorted(zip(map(float, sizes), map(float, shares), strict=True)):
         if size > last * (1 + alike):
@@ -266,7 +266,10 @@ def read(path):
 
 
 def answer(decide, made, machine_file, file, force, as_json):
-    """Call `decide` for data about the machine `made`. Save data and page, and print the answer."""
+    """Call `decide` for a dataset. Save it at the path `file`, write its page, print the answer.
+
+    Raise an error if the folder holds data of a machine other than `made`, unless `force` is True.
+    """
     from impact_damper.data.datasets import decode, save
     from impact_damper.model.machine import describe_si
     from impact_damper.plot import conclusion

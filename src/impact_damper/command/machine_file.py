@@ -49,7 +49,7 @@ class AllowedQuantity(Allowed):
 def quantity_of(quantity, meaning="", absolute=(), **bounds):
     """Return the pydantic type of a physical quantity within bounds.
 
-    Text such as "0.2 mm" is allowed too, if "displacement" is among the quantities in `absolute`.
+    A tolerance is a fraction, or text such as "0.2 mm" if "displacement" is listed in `absolute`.
     """
     return Annotated[Any, AllowedQuantity(quantity, bounds, meaning, absolute)]
 

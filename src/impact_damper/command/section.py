@@ -32,7 +32,7 @@ NUMBER, RANGE = "<number>", "<range>"
 class Allowed:
     """The allowed values of a key. The message about a wrong value is "must be" and `words`.
 
-    For a list or a mapping, the function `test` returns whether the value is allowed.
+    Besides pydantic's checks, a list or a mapping must pass the function `test`, if one is given.
     """
 
     def __init__(self, words, meaning="", why="", test=None):
@@ -68,7 +68,7 @@ class Allowed:
 def number(meaning="", *, above=None, least=None, most=None, why="", also=""):
     """Return the pydantic type of finite numbers within bounds.
 
-    Messages tell `why` there are bounds, and `also` what a key allows besides these numbers.
+    Messages contain `why`, the reason for the bounds, and `also`, another kind of allowed values.
     """
     bounds = {"greater than": above, "at least": least, "at most": most}
     words = [f"a finite number{also and f' or {also}'}", *_bounds(bounds)]
@@ -166,8 +166,7 @@ def _shown(bound):
 
 NAME = text("a name becomes part of a file name", pattern="[A-Za-z0-9][A-Za-z0-9_]{0,63}")
 
-# CSafeLoader needs the C library libyaml, and is several times as fast as SafeLoader.
-LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)  # CSafeLoader is faster, but needs libyaml
 # Numbers with an exponent. YAML 1.1 reads 2.0e+5 as a number, but 2e5, 2.0e5 and 2e+5 as text.
 SCIENTIFIC = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+")
 

@@ -9,15 +9,14 @@ from impact_damper.model.packed import pack
 from impact_damper.model.parameters import Damper, Oscillator
 
 OSCILLATOR = Oscillator(damping=0.215)
-# At FREQUENCY, motions of OSCILLATOR and DAMPER settle after few cycles. Newton's method refines
-# settled motions, so the kernels of Newton's method are compiled too.
 DAMPER = Damper(mass_ratio=0.25, clearance=1.0, restitution=0.75)
-FREQUENCY = 1.95
+FREQUENCY = 1.95  # Motions settle here. Newton's method then refines them, and is compiled too.
 
 
 def warm_up_orbits() -> None:
     """Call each kernel that processes one motion at a time."""
-    # A second process may run `warm_up_settling`. That function compiles other kernels first.
+    # Another process may run `warm_up_settling` at the same time. Because of the order of the calls
+    # the two processes rarely compile the same kernel at once.
     from impact_damper.motions import legs, records, strobe_map, traces
 
     on, off = (pack(OSCILLATOR, damper, FREQUENCY) for damper in (DAMPER, None))

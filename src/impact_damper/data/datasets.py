@@ -44,10 +44,10 @@ def shown_variable(name, values):
 
 
 def dataset(data, coordinates, parameters, title, model=None) -> xr.Dataset:
-    """Return a dataset of registered variables from dimensionless arrays.
+    """Return a dataset of registered variables, with `parameters` and `title` as attributes.
 
-    `data` and `coordinates` map registered names to arrays or to pairs (dims, array). If `model`
-    has a machine, the dataset is converted to mm, Hz and so on.
+    `data` and `coordinates` map registered names to dimensionless arrays or pairs (dims, array). If
+    `model` (a `Model`) holds a machine, the dataset is converted to mm, Hz and so on.
     """
 
     def labelled(items):
@@ -242,7 +242,6 @@ def load(path) -> xr.Dataset:
         raise BrokenFileError(f"{path} holds {held}")
     if data.attrs.get("sha256") != sealed["sha256"]:
         raise BrokenFileError(f"{path} holds other numbers than were written")
-    # Drop the attributes of `seal`, which belong to this file. `save` makes new ones.
     data.attrs = {name: value for name, value in data.attrs.items() if name not in sealed}
     return data
 

@@ -2,7 +2,7 @@
 
 from impact_damper.data.variables import register
 
-# A gap is lost if its displacement in the search exceeds KEEPS x the promised displacement.
+# At a lost gap the search found more than KEEPS x the displacement promised for the chosen gap.
 # A damper is worth building if it lowers the largest displacement by the fraction WORTH or more.
 KEEPS, WORTH = 1.1, 0.25
 

@@ -1,4 +1,4 @@
-"""Registry of the variables in all datasets: name, dimensions, physical kind, symbol, flags."""
+"""Registry of the variables in all datasets: name, dimensions, unit, symbol, named values."""
 
 import re
 from typing import NamedTuple
@@ -34,9 +34,8 @@ def register(table) -> None:
     """Add variables to the registry; a name that is registered already is an error.
 
     The table has a line "name | dimensions | kind | symbol | description" for each variable. An
-    empty kind means a plain number. An indented line continues the description, or names the values
-    of the variable: "  : absent 0, found 1", or "  : outcome" for the same values as the variable
-    `outcome`. "#" begins a comment.
+    empty kind means a plain number. An indented line continues the description, or names values:
+    "  : absent 0, found 1", or "  : outcome" for the values of `outcome`. "#" begins a comment.
     """
     entries = []
     for line in table.splitlines():
@@ -65,8 +64,8 @@ def _named_values(text):
     return {name: int(value) for name, value in pairs}
 
 
-# Labels of states of the primary mass, in place of an attractor's number. A state is `mixed` if the
-# place of the loose mass decides which of several attractors is reached.
+# Values of the variable `basin_label` for states of the primary mass that lead to no one stable
+# orbit. A state is `mixed` if the place of the loose mass decides which orbit is reached.
 BASIN_LABEL = {
     "unresolved": -1,
     "escaped": -2,

@@ -34,10 +34,10 @@ DETUNINGS = (-0.1, 0.0, 0.1)
 def absorber_responses(
     machine, mass, frequencies, force_shares=SHARES, *, detunings=DETUNINGS, band=None, own=None
 ):
-    """Return a dataset of displacements (mm) without absorber and with one or two absorbers.
+    """Return a dataset of displacements (mm): no absorber, a tuned absorber, the absorber `own`.
 
-    One absorber has the mass `mass` (kg) and is tuned over `band` (Hz). The second absorber, `own`,
-    may be None. `frequencies` are in Hz. The excitation is multiplied by each number in
+    The tuned absorber has the mass `mass` (kg) and the lowest peak over `band` (Hz). `own` is a
+    `TunedAbsorber` or None. `frequencies` are in Hz. The excitation is multiplied by each number in
     `force_shares`. The stiffness of both absorbers is changed by each of the fractions `detunings`.
     For a machine without linear stiffness, displacements with the tuned absorber are NaN.
     """

@@ -32,9 +32,9 @@ BLOCK, TAIL, HORIZON = 50, 50, 100_000
 # this displacement is extrapolated. If n >= MOST_POOLED, the motions are not run further.
 POOLED, MOST_POOLED = 25_000, 200_000
 MISSING = 0.03
-# The run of a regime is divided into QUARTERS equal parts. The regime is steady if the largest
-# displacements in the parts differ by at most the fraction STEADY (ROUGH if gaps are compared).
-# The largest displacement of a steady regime is not extrapolated, but multiplied by 1 + STEADY.
+# D is the largest displacement of a regime. The run of the regime is divided into QUARTERS equal
+# parts. The regime is steady if the largest displacements in the parts differ by at most STEADY x D
+# (in the search for a gap: ROUGH x D). D is then not extrapolated, but multiplied by 1 + STEADY.
 # The largest displacement of a settled motion is multiplied by 1 + SLACK.
 QUARTERS, STEADY, ROUGH, SLACK = 4, 0.002, 0.01, 0.001
 CHECKED = 100  # cycles of a test run before each longer run; it shows which motions settle
@@ -86,8 +86,7 @@ class Motions:
         After the first run, motions that have not settled run `task.effort.settling.watched`
         cycles. Largest displacement in each quarter of these cycles; 0 for settled motions.
     blocks : array of arrays, shape (m,)
-        For each cell an array of block peaks (see BLOCK), shape (n, blocks). The entry is NaN if a
-        motion was not run in a block.
+        For each cell an array of block peaks (see BLOCK), shape (n, blocks); NaN if not run.
     """
 
     task: object
@@ -110,11 +109,12 @@ class Motions:
     def measured(self, k, regime, rough=False) -> tuple:
         """Return a displacement for the motions of cell k in `regime` (indices), and two booleans.
 
-        The displacement is an estimate for HORIZON cycles. With `rough` it is coarser. The first
-        boolean is True if the motions need not be run further. The second boolean is False before
-        the motions have run POOLED cycles, unless they escape. Later it is True if the regime is
-        steady (see STEADY), or if no block peak of the second half of the run exceeds the
-        displacement that is extrapolated from the first half.
+        The displacement is an estimate for HORIZON cycles, or with `rough` the less accurate
+        estimate that the search for a gap uses. The first boolean is True if the motions need not
+        be run further. The second is True if the estimate has passed a test: the regime is steady
+        (see STEADY), or no block peak of the second half of the run exceeds the displacement that
+        is extrapolated from the first half. After an escape both booleans are True. Otherwise both
+        are False until the motions of the regime, taken together, have run POOLED cycles.
         """
         record, peaks = self.peaks[k, regime].max(), self.blocks[k][regime]
         peaks = peaks[:, np.isfinite(peaks).any(axis=0)]
@@ -139,7 +139,7 @@ class Motions:
     def numbers(self, k, rough=False) -> tuple:
         """Return two arrays over the motions of cell k: displacement, and True if it is final.
 
-        A displacement is final if its motion need not be run further. With `rough` it is coarser.
+        A displacement is final if its motion need not be run further. For `rough` see `measured`.
         """
         sizes, known = (1 + SLACK) * self.peaks[k], self.settled[k].copy()
         for regime in self.regimes(k):
@@ -170,8 +170,7 @@ class Motions:
 
         The bound of a cell is the `rank`-th largest displacement of its motions. As long as the
         motion with this displacement must be run further, the bound is an estimate. Such a motion
-        is run if the estimate exceeds `least` and all final bounds. Cells with indices in
-        `left_out` are not run.
+        is run if the estimate exceeds `least` and all final bounds. `left_out`: cells not to run.
         """
         while True:
             bounds, places, known = self.bounds(rank)
@@ -187,8 +186,8 @@ class Motions:
     def follow(self, k, regime) -> None:
         """Double the number of blocks that the motions of cell k in `regime` (indices) have run.
 
-        If no motion has run a block (see BLOCK), run at least POOLED/2 cycles, all motions added
-        up. Drop displacements before the first block, which may be of transients.
+        If no block (see BLOCK) was run so far, all motions together run at least POOLED/2 cycles.
+        Displacements from earlier cycles are then dropped: they may belong to transients.
         """
         loud = regime[~self._settle(k, regime)]
         if not len(loud):

@@ -50,8 +50,8 @@ def response_and_costs(task, decision, progress=None) -> xr.Dataset:
 def reached_motions(task, choice, response) -> xr.Dataset:
     """Return a dataset: displacement, impacts and forces of the largest motion at each frequency.
 
-    The largest motion is sought among motions in `response` to which a random start leads, and
-    motions with contacts to which a placed start leads (see `motions.start_states`).
+    Two kinds of motions in `response` count: those to which a random start leads, and those that
+    have contacts and to which a placed start leads (see `motions.start_states`).
     """
     sizes = response["maximum_displacement"].values
     placed = response["origin"].values == flag("origin", "placed_start")

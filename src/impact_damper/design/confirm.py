@@ -15,8 +15,8 @@ from impact_damper.design.search import score, search, search_around
 from impact_damper.design.task import NOMINAL, NUMERICAL, SIDES, VARIED, Task, labelled
 
 # A round runs the best gap on the curve of the search with new starts, and corrects the curve. Up
-# to ROUNDS rounds follow each other. They end early if the best gap was run before, or if the
-# smallest displacement promised so far is at most CONFIRMED x that of the best gap on the curve.
+# to ROUNDS rounds follow each other. They end early if the best gap was run in an earlier round, or
+# if the least promised displacement is at most CONFIRMED x the best gap's tolerated displacement.
 CONFIRMED, ROUNDS = 1.05, 4
 # If the promised displacement of a gap exceeds SURPRISE x the largest displacement that the search
 # has found at the gaps within its tolerance, nearby gaps are searched again.
@@ -180,7 +180,7 @@ def conclude(task, found, curve, status) -> xr.Dataset:
 
 
 def rivals(task) -> xr.Dataset:
-    """Return largest displacements with a tuned absorber, one detuned by 10 %, `task.absorber`."""
+    """Return the largest displacement (mm) with each of three absorbers in place of the damper."""
     names = ("tuned_displacement", "detuned_displacement", "own_absorber_displacement")
     values = dict.fromkeys(names, np.nan)
     given = task.machine, task.mass, task.grid, [1.0]

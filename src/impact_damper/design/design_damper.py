@@ -66,8 +66,8 @@ def design_damper(
     share : float
         Fraction of all starts for which the promised displacement holds, 0.5 to 0.999.
     absorber : dict, optional
-        Absorber that is compared in addition to the optimum absorber: `mass` (kg), `stiffness`
-        (N/m) and `damping` (N s/m).
+        Absorber of your own: `mass` (kg), `stiffness` (N/m) and `damping` (N s/m). The damper is
+        compared with this absorber, and in any case with a tuned absorber.
     effort : Effort, optional
         How many frequencies, gaps and starts are computed, and with how many threads.
     folder : str or pathlib.Path, optional
@@ -211,7 +211,7 @@ def answer(task, decide, title, folder, progress) -> xr.Dataset:
 class Steps:
     """Runs the steps of a design. If a folder is given, each step saves its dataset there.
 
-    A later run with equal `inputs` and unchanged source files of the package reads this dataset.
+    A later run reads this dataset if `inputs` (values of the task) and source files are unchanged.
     """
 
     def __init__(self, folder, progress, inputs):

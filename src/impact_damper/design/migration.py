@@ -44,9 +44,9 @@ def migration(
     on, and end when the small motion has settled. Without success they are infinite. The dataset
     has for each gap and frequency the share of releases that succeed, the median time, and a bound,
     `migration_bound`. With 95 % confidence at least the fraction `share` of all releases takes at
-    most this time. From `sure_frequency` of a gap upwards, the bound is finite at each frequency
-    with two free motions. `migration_gap` is the gap with the lowest `sure_frequency`. ValueError
-    is raised if each frequency has only one free motion.
+    most this time. For each gap the bound is finite at all frequencies from `sure_frequency` to the
+    highest frequency with two free motions. `migration_gap` is the gap with the lowest
+    `sure_frequency`. ValueError is raised if each frequency has only one free motion.
     """
     effort = Effort() if effort is None else effort
     task = Task(
@@ -95,9 +95,10 @@ def _case(task, gap, frequency):
 
 
 def release_time(case, seed, longest_hold, settling, stop) -> float:
-    """Return the cycles from switching the damper on until the small motion has settled.
+    """Return the number of cycles from switching the damper on until the small motion has settled.
 
-    The result is infinite if another motion is reached, or if the run is ended by stop[0] = True.
+    `case` is a `ReleaseCase`. The damper stays on for about `longest_hold` cycles at most. The
+    result is infinite if another motion is reached, or if the run is ended by stop[0] = True.
     """
     draws = np.random.default_rng(seed).random((1, 3))
     _, log = control(case, draws, longest_hold, settling, 0, None, stop)
@@ -110,7 +111,6 @@ def _table(task, gaps, times, longest_hold) -> xr.Dataset:
     bounds = -np.sort(-times, axis=-1)[..., rank - 1]
     one = np.isnan(times[..., 0])
     sure = np.isfinite(bounds)
-    # Frequencies above the last frequency with two free motions are left out.
     last = int(np.flatnonzero(~one.all(axis=0))[-1])
     lowest = np.full(len(gaps), np.nan)
     for i, row in enumerate(sure[:, : last + 1]):

@@ -17,12 +17,12 @@ CORNERS = 8  # largest number of corners. In a corner each value is at one end o
 # the fraction PEAK. A parabola through the largest bound and the bounds at both neighbouring
 # frequencies has a maximum that exceeds the largest bound by at most the fraction PEAK.
 NEAR, PEAK, SPLITS = 0.9, 0.01, 4
-# The nominal set is run at all n frequencies of a grid, other sets first at max(n/2, FEWEST).
+# At first the nominal set has all n frequencies of a grid, each other set max(n/2, FEWEST) of them.
 FEWEST = 9
 # A cell has rare motions if its bound exceeds RARE x the largest usual displacement of all cells.
-# Such cells are run again with MORE x as many starts, SOME cells at a time, the cells with the
-# largest bounds first. b is the least bound that these SOME cells had before. If one of their new
-# bounds exceeds KEPT x b, the remaining cells, whose bounds are at most b, are not run again.
+# Such cells are run again with MORE x as many starts, in groups of SOME cells. Groups with larger
+# bounds come first. Let b be the least old bound in a group. If a new bound in this group exceeds
+# KEPT x b, the groups after it are not run again, because their old bounds are at most b.
 RARE, MORE, SOME, KEPT = 1.2, 6, 8, 0.95
 
 

@@ -17,7 +17,7 @@ GAP_SPAN = (0.4, 2.0)  # least and greatest gap of the branch, divided by the ga
 
 
 def follow_quiet_orbit(task, choice, progress=None) -> xr.Dataset:
-    """Return a dataset of the quiet orbit over the gap, at the frequency `branch_frequency`."""
+    """Return a dataset of the quiet orbit over the gap, at choice["branch_frequency"] (Hz)."""
     gap, frequency = float(choice["design_gap"]), float(choice["branch_frequency"])
     orbit = quiet_orbit(task, gap, frequency)
     cliff = float(choice["lost_gap"][1]) if decode(choice["lost_kind"])[1] == "jump" else np.inf
@@ -37,7 +37,7 @@ def quiet_orbit(task, gap, frequency) -> Orbit | None:
 
 
 def over_gap(task, gap, frequency, orbit, cliff) -> xr.Dataset:
-    """Return the branch of `orbit` over the gap, and whether its minimum is beyond `cliff` (mm)."""
+    """Return a dataset of the branch of `orbit` over the gap. `cliff` is a gap (mm) or infinite."""
     gaps = sizes = moduli = np.empty(0)
     if orbit is not None:
         oscillator, damper, turning = task.system(1e-3 * gap, frequency)

@@ -199,9 +199,10 @@ def score(task, gaps, frequencies, starts, stream, progress=None, sets=(NOMINAL,
     """Return displacement (mm), frequency (Hz) and set of factors of each gap's worst cell.
 
     The result is three sequences over `gaps` (mm). A cell is a gap, one of `frequencies` (Hz) and
-    one of `sets` (of factors). Each cell has `starts` random starts. About the fraction
-    (1 - task.share)/2 of the motions of a cell exceed the displacement of the cell. The worst cell
-    has the largest displacement. If rare motions cause it, the cell is run again (see DOUBTED).
+    one of `sets` (of factors). Each cell has `starts` random starts (`stream`: see `draw_starts`).
+    About the fraction (1 - task.share)/2 of the motions of a cell exceed the displacement of the
+    cell. The worst cell has the largest displacement. If only rare motions move so far, the worst
+    cell is run again (see DOUBTED).
     """
     conditions = [(f, tuple(each)) for f in frequencies for each in sets]
     cells = [Cell(1e-3 * gap, *each) for gap in gaps for each in conditions]

@@ -1,7 +1,6 @@
 """Robustness of a design: impulses on the machine, and how long motions take to return.
 
-The names *minimal critical shock*, *convergence time* and *finite-time basin stability* come from
-Attractors.jl, version 2.
+Terms from Attractors.jl 2: minimal critical shock, convergence time, finite-time basin stability.
 """
 
 import numpy as np
@@ -17,8 +16,7 @@ from impact_damper.model.packed import FREQUENCY
 SHOCKS, WIDEST = 32, 2.0
 # A motion runs for LONGEST cycles. Its peak is found in each block of BLOCK cycles.
 LONGEST, BLOCK = 1000, 10
-# `returned_share` is the share of starts that return within each of these numbers of cycles.
-LIMITS = (10, 30, 100, 300, 1000 - BLOCK)
+LIMITS = (10, 30, 100, 300, 1000 - BLOCK)  # cycles within which starts of `returned_share` return
 
 
 def shocks(task, decision, progress=None) -> xr.Dataset:
@@ -58,7 +56,7 @@ def shocks(task, decision, progress=None) -> xr.Dataset:
 
 
 def times_after(task, p, state, changes, promised):
-    """Return `convergence_times` from `state` with each of `changes` in the machine's velocity."""
+    """Return the convergence times from `state` with changes[i] added to the velocity Z1'."""
     states = np.tile(state, (len(changes), 1))
     states[:, 1::2] += np.asarray(changes)[:, None]
     return convergence_times(task, p, states, promised)

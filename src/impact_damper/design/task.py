@@ -53,8 +53,8 @@ LEAST_GAP = 0.15
 # If the machine without damper escapes at all frequencies, the greatest gap that a design considers
 # is ESCAPING x the greatest gap that rule (18) gives at a frequency of the band.
 ESCAPING = 4.0
-# An absorber is tuned from ABSORBED[0] x f1 to ABSORBED[1] x f2. f1 is the lowest and f2 the
-# highest of four frequencies: both ends of the band, lowest and highest resonance of the machine.
+# An absorber is tuned for all forcing frequencies from ABSORBED[0] x f1 to ABSORBED[1] x f2. Among
+# the ends of the band and the ends of `Task.resonance`, f1 is the lowest and f2 the highest.
 ABSORBED = 0.5, 2.0
 # In the first run of a motion, `Settling.patience` is at most max(PATIENT x D, LEAST_PATIENCE), and
 # `Settling.limit` is at most max(LONG x PATIENT x D, LEAST_LIMIT). D is the number of forcing
@@ -341,7 +341,10 @@ class Task:
         return float(self.grid[np.argmax(self.bare)])
 
     def few(self, count, *others) -> np.ndarray:
-        """Return frequencies: `worst_frequency`, `resonances`, `others`, and `count` of `grid`."""
+        """Return `count` evenly spread frequencies of `grid`, and further frequencies (Hz).
+
+        The further frequencies are `worst_frequency`, `resonances` and `others`. None occurs twice.
+        """
         places = np.linspace(0, len(self.grid) - 1, count).round().astype(int)
         resonances = np.intersect1d(self.grid, self.resonances)
         return np.union1d(self.grid[places], [self.worst_frequency, *resonances, *others])
@@ -417,7 +420,7 @@ class Task:
 
 
 def resonance_of(machine) -> tuple[float, float]:
-    """Return the least and the greatest (Hz) of natural frequency, resonance peak and folds."""
+    """Return the lowest and the highest frequency (Hz) at which the machine alone resonates."""
     natural = machine.natural_frequency
     oscillator = machine.oscillator()
     found = [point.frequency for point in free_folds(oscillator)]

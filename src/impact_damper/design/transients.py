@@ -36,8 +36,8 @@ TOLERANCE = 1e-10
 # MOST_SWEPT: largest number of cycles in a sweep. If SWEEP gives more, the rate is raised.
 SWEEP, MOST_SWEPT = 4.0, 6000
 STEEPEST = 0.01  # largest relative change of the frequency of a sweep in a forcing cycle
-# Before each sweep the first frequency is held until transients of the machine without the damper
-# have decayed to SETTLED x their initial amplitude, but for at most HELD cycles.
+# Before each sweep, with or without the damper, the first frequency is held for the time in which a
+# vibration of the machine alone would decay to SETTLED x its amplitude, but at most HELD cycles.
 SETTLED, HELD = 0.01, 10**5
 # An unforced decay begins at a displacement A. It ends when the energy of machine and loose mass is
 # at most the energy of the machine alone at the displacement REST x A, or after MOST_WINDOWS
@@ -90,8 +90,8 @@ def _swept(machine, damper, first, frequencies):
 def sweep_periods(first, slope, count):
     """Return the beginning (s) and the mean frequency (Hz) of each cycle of a continuous sweep.
 
-    At the time t the frequency is first + slope t. A cycle begins when first t + slope t^2/2, the
-    phase in cycles, is a whole number.
+    At the time t the frequency is f0 + s t, and the phase in cycles is f0 t + s t^2/2. f0 (Hz) is
+    `first`, s (Hz/s) is `slope`. `count` cycles begin where the phase is a whole number.
     """
     phases = np.arange(count + 1)
     times = 2 * phases / (first + np.sqrt(first**2 + 2 * slope * phases))
