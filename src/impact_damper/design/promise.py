@@ -17,7 +17,7 @@ CORNERS = 8  # largest number of corners. In a corner each value is at one end o
 # the fraction PEAK. A parabola through the largest bound and the bounds at both neighbouring
 # frequencies has a maximum that exceeds the largest bound by at most the fraction PEAK.
 NEAR, PEAK, SPLITS = 0.9, 0.01, 4
-# At first the nominal set has all n frequencies of a grid, each other set max(n/2, FEWEST) of them.
+# At first the nominal set has n frequencies (all of a grid), the other sets max(n/2, FEWEST).
 FEWEST = 9
 # A cell has rare motions if its bound exceeds RARE x the largest usual displacement of all cells.
 # Such cells are run again with MORE x as many starts, in groups of SOME cells. Groups with larger

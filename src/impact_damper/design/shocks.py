@@ -56,7 +56,7 @@ def shocks(task, decision, progress=None) -> xr.Dataset:
 
 
 def times_after(task, p, state, changes, promised):
-    """Return the convergence times from `state` with changes[i] added to the velocity Z1'."""
+    """Return the convergence times after each of `changes` is added to the velocity in `state`."""
     states = np.tile(state, (len(changes), 1))
     states[:, 1::2] += np.asarray(changes)[:, None]
     return convergence_times(task, p, states, promised)
