@@ -44,7 +44,7 @@ class Pool(NamedTuple):
     queues: Indices of the waiting trajectories, a row for each kind of step; shape (4, n).
     waiting: Number of trajectories in each queue; shape (4,).
     contacts: Number of contacts begun since the last call of `send`; shape (n,).
-    largest: Largest |Z1| since the last call of `enter`, NaN if no one asks for it; shape (n,).
+    largest: Largest |Z1| so far. NaN, set by `enter`, means that it is not computed; shape (n,).
     held: For each lane the index of the trajectory whose parameters it has, or -1; shape (LANES,).
     a, d: Arrays for a step of LANES trajectories (a) and for their tangents (d).
     """
@@ -198,9 +198,9 @@ def raise_largest(pool, chosen, count, kind):
     """After a step, update `pool.largest`, the largest |Z1| of each chosen trajectory.
 
     The largest |Z1| in the step is computed only if an upper bound on it exceeds `pool.largest`.
-    The bound is |Z1| at the beginning or at the end of the step, whichever is larger, plus `rise`.
-    In contact `rise` is the sum of the moduli of the terms of Z1's series without the constant.
-    In flight `rise` follows from CHANGE, an upper bound on the change of Z1' in the step.
+    The bound is `ends`, the larger |Z1| at both ends of the step, plus `rise`. In contact `rise` is
+    the sum of |x[k]| t^k over k >= 1, with the Taylor coefficients x[k] of Z1 and the step's length
+    t. In flight `rise` follows from CHANGE, an upper bound on the change of Z1' in the step.
     """
     a, order = pool.a, CONTACT_ORDER if kind & 1 else FLIGHT_ORDER
     rise, series = np.zeros(LANES), np.empty(max(FLIGHT_ORDER, CONTACT_ORDER) + 1)

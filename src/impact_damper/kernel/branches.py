@@ -65,8 +65,8 @@ def number(x):
 def template(function, caller):
     """Return a function that executes the template `function`. Kernels can call it.
 
-    `caller` is a Python function that calls the returned function by the name of a global variable.
-    This variable is set after `template` has returned. `compiling.compiled` compiles `caller`.
+    For example, a module sets `forcing = template(forcing, call_forcing)`. The Python function
+    `caller`, here call_forcing, only calls forcing(a). `compiling.compiled` can compile it.
     """
 
     def generate(context, builder, signature, arguments):
@@ -228,7 +228,7 @@ class Body(ast.NodeVisitor):
         self.builder.position_at_end(after)
 
     def visit_For(self, node):
-        """Write a loop over `i` with two or more rounds as a loop in LLVM. Unroll other loops."""
+        """Unroll a loop with one round, or with another variable than `i`. Else loop in LLVM."""
         count, counter = self.visit(node.iter.args[0]), node.target.id
         if counter == "i" and count > 1:
             with cgutils.for_range(self.builder, ir.Constant(INTEGER, count)) as loop:

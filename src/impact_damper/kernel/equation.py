@@ -178,11 +178,8 @@ def squares(count):
 
 
 def _lower_squares(n):
-    """Yield lines of code that change s0, s1, ... so that they take the term x{n} t^n into account.
-
-    Afterwards s0, ..., s{2n} are the coefficients of k3 (x0 + x1 t + ... + x{n} t^n)^2. The lines
-    add 2 k3 x{n} x{j} to s{n+j} for each j < n, and set s{2n} = k3 x{n}^2.
-    """
+    # After these lines of code s0, ..., s{2n} are the coefficients of k3 (x0 + x1 t + ... + x{n}
+    # t^n)^2. The lines add 2 k3 x{n} x{j} to s{n+j} for each j < n, and set s{2n} = k3 x{n}^2.
     yield f"y{n} = double * x{n}"
     for j in range(n - n % 2, 2 * n, 2):
         before = f"P{j}" if j < 2 * n - 2 else f"(s{j}, 0.0)"
@@ -193,7 +190,8 @@ def _lower_squares(n):
 
 
 def _without_damping(k, drive):
-    """Yield code that sets c{k}: coefficient k of forcing (`drive`) minus force of the spring."""
+    # The lines set c{k} = f - s. f is coefficient k of the forcing, and `drive` is its code. s is
+    # coefficient k of the spring's force.
     n, odd = k // 2, k % 2
     last = k - n - 1
     if odd and last % 2 and last > 1:
@@ -218,12 +216,10 @@ def _without_damping(k, drive):
 
 
 def _accelerations(k, phase, loose):
-    """Yield lines of code that compute x{k+2}, and in contact also q{k+2}, from c{k}.
-
-    x{k} is coefficient k of Z1, q{k} of the depth in the wall, and c{k} of the acceleration by the
-    forcing and the spring. `loose` is "c" or "m". With "m" the lines compute q{k+2} from m{k}. This
-    is c{k} plus coefficient k of Z2'' - Z1'' without the wall's force.
-    """
+    # The lines compute x{k+2}, and in contact also q{k+2}. x{k} is coefficient k of Z1, q{k} of the
+    # depth in the wall, and c{k} of the acceleration by the forcing and the spring. m{k} is c{k}
+    # plus coefficient k of Z2'' - Z1'' without the wall's force. x{k+2} follows from c{k}. q{k+2}
+    # follows from c{k} if `loose` is "c", and from m{k} if `loose` is "m".
     a, b = (f"a{k - 1}", f"b{k - 1}") if k > 0 else ("x1", "q1")
     factor = 1 / ((k + 1) * (k + 2))
     yield f"g{k} = c{k} - h{k} * {a}"

@@ -150,12 +150,12 @@ class Writer:
         self.rows = rows(flight_order, contact_order)
 
     def at(self, row, k=0):
-        """Return code such as "a[48 + i]": the number of lane i in the k-th row after `row`."""
+        """Return code such as "a[48 + i]": the entry for lane i, k rows after the row `row`."""
         index = (self.rows[row] + k) * self.lanes
         return f"a[{index} + i]" if self.lanes > 1 else f"a[{index}]"
 
     def at_tangent(self, row, k=0):
-        """Return code such as "d[8 + i]": the number of tangent i in the k-th row after `row`."""
+        """Return code such as "d[8 + i]": the entry for tangent i, k rows after the row `row`."""
         return f"d[{(self.rows.get(row, 0) + k) * self.tangents} + i]"
 
     def function(self, name, lines, tangent=False, first=(), side_by_side=4):
@@ -309,8 +309,8 @@ class Source(Writer):
             self.sums("flight_snap", "flight", "T", {"SNAP": "|G''|"}),
             self.sums("contact_jerk", "contact", "LENGTH", {"Z1_JERK": "|G'|"}),
             self.sums("contact_bound", "contact", "LENGTH", bound, self._tail("contact")),
-            # CHANGE is an upper bound on |Z1'(t) - Z1'(0)| for 0 <= t <= T. It is the sum of the
-            # moduli of the terms of the series of Z1' at t = T, without the constant term.
+            # CHANGE is an upper bound on |Z1'(t) - Z1'(0)| for 0 <= t <= T. It is the sum of
+            # |k x[k]| T^(k - 1) over k >= 2, where x[k] is Taylor coefficient k of Z1.
             self.sums("flight_change", "flight", "T", {"CHANGE": "|X'|"}, changed, begin=2),
         ]
         return f"{IMPORTS}\n\n" + "\n\n".join(functions)
@@ -320,8 +320,9 @@ class Source(Writer):
 
         The series are summed at the time that the row named `time` has. In `results` a key is the
         name of the row for a sum, and its value is the series: "X" is the series X, "X'" its first
-        derivative, and "|X|" the series of the moduli of its terms. A sum begins at the order
-        `begin` and has at most `terms` terms. The kernel ends with the lines of code `then`.
+        derivative, and "|X|" the series of the moduli of its terms. A sum begins with coefficient
+        `begin` of X, also if X' is summed, and has at most `terms` terms. It is divided by the
+        power of t in its first term. The kernel ends with the lines of code `then`.
         """
         lines = [*self._time(time, phase)]
         first = list(lines) if self.lanes == 1 else []
@@ -379,7 +380,8 @@ class Source(Writer):
             yield f"{z1} -= {force}"
 
     def _tail(self, phase):
-        """Yield lines that set TAIL to the largest modulus of the velocities' last two terms."""
+        # The lines set TAIL to the largest modulus of the last two terms in the series of Z1', and
+        # in contact also of the depth's rate. The terms are taken at the time t.
         last = self.orders[phase]
         yield "last = 0.0"
         for row in self.moving(phase):
@@ -418,13 +420,13 @@ def _constants(*numbers):
 
 
 def _paired(c, result):
-    """Return code that sets `result` to c[0] + ... + c[7] u^7, from the variables u and v = u^2."""
     low, high = (f"({a} + {b} * u) + ({c} + {d} * u) * v" for a, b, c, d in (c[:4], c[4:]))
     return f"{result} = ({low}) + ({high}) * (v * v)"
 
 
 def _sum(c, result, parts, done):
-    """Yield lines of code that set `result` to the sum of c[k] t^k, from four partial sums."""
+    # The lines set `result` to the sum of c[k] t^k. The variable part{j} sums c[k] t^(k - j) over
+    # k = j, j + 4, ... It begins with `parts[j]`, the code of its terms with k < `done`.
     for j in range(4):
         yield f"part{j} = {parts[j]}"
         for k in range(done + j, len(c), 4):

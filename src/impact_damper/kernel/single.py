@@ -192,10 +192,7 @@ def state_in_step(work, side, y, t):
 
 @kernel_only
 def series_of_loose_mass(work, side, y, c):
-    """Fill c with the Taylor series of Z2 in a step. Return the order of the series.
-
-    `work` is the workspace after the step, `side` the side in the step, and y the state before it.
-    """
+    """After a step from state y, fill c with the step's Taylor series of Z2. Return its order."""
     a = pointer(work)
     order = FLIGHT_ORDER if side == 0 else CONTACT_ORDER
     for k in range(order + 1):

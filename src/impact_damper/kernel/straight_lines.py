@@ -70,7 +70,6 @@ class _Lines(Body):
             self.builder.store(value, self.pointer(target), align=8)
 
     def pointer(self, node):
-        """Return the pointer to the number `a[1]`, or to the first of the numbers `a[1 + i]`."""
         own = isinstance(node.slice, ast.BinOp)
         number = ir.Constant(OFFSET, (node.slice.left if own else node.slice).value)
         if own and self.first is not None:
@@ -95,7 +94,6 @@ class _Lines(Body):
         return self.arithmetic.pair(*map(self.visit, node.elts))
 
     def visit_BinOp(self, node):
-        """Return the result of an operator. A sum of a product and a number becomes a fmuladd."""
         kind, left, right = type(node.op), node.left, node.right
         if kind in (ast.Add, ast.Sub) and is_product(right):
             first = self.visit(right.left)

@@ -29,7 +29,7 @@ PHASES = ("state_phase", "orbit_phase")
 
 
 class Model(NamedTuple):
-    """A dimensionless oscillator and its damper, and the `Machine` if the user gave a machine."""
+    """An `Oscillator`, with or without damper, forcing frequency and the `Machine` of the user."""
 
     oscillator: Oscillator
     damper: Damper | None

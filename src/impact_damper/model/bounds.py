@@ -28,7 +28,6 @@ MOST_STIFF = 1e6
 RADIUS_RANGE = {"above": 0.0, "most": 1e3}
 # Largest radius of the ball of random starts, divided by the clearance.
 MOST_RADIUS = 1e3
-# Bounds of the fields of `settling.Settling`.
 TOLERANCE_RANGE = {"least": 1e-14, "most": 1e-3, "why": "rounding errors exceed smaller ones"}
 PATIENCE_RANGE = {"least": 100, "most": 10**7, "why": "motions rarely settle in fewer cycles"}
 LIMIT_RANGE = {"least": 100, "most": 10**8}

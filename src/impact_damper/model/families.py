@@ -15,7 +15,6 @@ PARAMETERS |= dict.fromkeys(("damping", "cubic", "force", "unbalance"), Oscillat
 PARAMETERS |= dict.fromkeys(("mass_ratio", "clearance", "restitution", "contact_stiffness"), Damper)
 # For these parameters the coordinate along a branch is the value, for others the value's logarithm.
 LINEAR = ("frequency", "cubic", "force", "unbalance", "restitution")
-# Indices, in packed parameters, of F and U in the amplitude F + U W^2 of the forcing.
 FORCING = {"force": FORCE, "unbalance": UNBALANCE}
 
 
@@ -57,7 +56,7 @@ def family_of(oscillator, damper, frequency, parameter, span):
     The parameter is expressed by a coordinate. For parameters in LINEAR, such as the frequency, the
     coordinate is the parameter's value. For others it is the logarithm of the value. The results
     are a function that returns the packed parameters at a coordinate, the coordinate of the given
-    system, and a pair: the coordinates of both ends of the span. Too stiff a contact is an error.
+    system, and a pair: the coordinates of both ends of the span.
     """
     part = {None: None, Oscillator: oscillator, Damper: damper}[PARAMETERS[parameter]]
     value = frequency if part is None else getattr(part, parameter)

@@ -1,4 +1,4 @@
-"""Find the machine that fits a measured curve. Only functions import NumPy and SciPy."""
+"""Find the machine that fits a measured curve. NumPy and SciPy are imported only when needed."""
 
 import csv
 import re
@@ -12,8 +12,9 @@ from impact_damper.model.units import QUANTITIES, check_si
 COLUMN = re.compile(r"\s*([a-z]+)[\s_\[(]+([^\s\])]+)[\])]?\s*")
 FEWEST = 20
 SPRING = ("linear_stiffness", "damping", "cubic_stiffness")
-# `from_response` makes PASSES fits in turn. It divides R (see its docstring) by (s^2 +
-# FOLD^2)^(1/2) with s = dR/d ln a, because s is almost 0 near a jump of the response.
+# `from_response` defines a residual R/s. Near a jump of the response s = dR/d ln a is almost 0, so
+# R is divided by (s^2 + FOLD^2)^(1/2). s depends on the fitted values. Therefore PASSES fits are
+# made in turn, each with s from the values found before it.
 FOLD, PASSES = 0.1, 6
 
 
@@ -22,7 +23,8 @@ class Identified(NamedTuple):
 
     `uncertainties` has the standard uncertainty, in SI units, of each fitted field of `machine`. It
     is assumed that the errors of the samples are independent and equally large. `noise` is the
-    standard deviation of the residuals, in m for a decay, and relative for a response.
+    standard deviation of the residuals. After `from_ring_down` it is in m. After `from_response`
+    it is a fraction of the amplitude of each sample.
     """
 
     machine: object
@@ -151,10 +153,8 @@ def _fit(residuals, guess, scale):
 
 
 def _free(time, parameters):
-    """Return x of unforced motions x'' + c x' + k x + k3 x^3 = 0, one motion in each column.
-
-    `parameters` has a column for each motion: k, c, k3, and x and x' at the first time.
-    """
+    # The result has x(t) of unforced motions x'' + c x' + k x + k3 x^3 = 0, one in each column.
+    # `parameters` has a column for each motion: k, c, k3, and x and x' at the first time.
     import numpy as np
     from scipy.integrate import solve_ivp
 
@@ -174,7 +174,8 @@ def _free(time, parameters):
 
 
 def _decay(time, measured):
-    """Return guesses for k/m, c/m, k3/m, x(0), x'(0) and offset, and the typical size of each."""
+    # The first result has guesses for k/m, c/m, k3/m, x(0), x'(0) and the offset. The second has
+    # the positive scales by which the fit divides these values.
     import numpy as np
     from scipy.signal import hilbert
 
@@ -199,7 +200,8 @@ def _decay(time, measured):
 
 
 def _resonance(w, amplitude, force):
-    """Return first guesses for k, c, k3 and m, and the typical size of each."""
+    # The first result has guesses for k, c, k3 and m. The second has the positive scales by which
+    # the fit divides these values.
     import numpy as np
 
     top = np.argmax(amplitude)

@@ -19,12 +19,11 @@ FRICTIONS = {"least": 0, "most": 10}  # range of a coefficient of friction
 # Keys of the damper in a machine's file that are passed to the function `mounting`.
 MOUNT = ("inclination", "friction_coefficient", "normal_force")
 GRAVITIES = {"least": -1e3, "most": 1e3}  # range of gravity along the gap, m/s^2
-# Largest damping ratio. At 1, critical damping, the machine no longer vibrates.
 MOST_DAMPING = 0.99
 
 
 class Derived(float):
-    """Number that a machine computes from its given fields. A changed copy computes it again."""
+    """Marks a field that a machine has computed from other fields. The user has not given it."""
 
 
 @bounds.names_arguments
@@ -237,8 +236,9 @@ class Machine:
     def scales(self) -> Scales:
         """Scales with which the dimensionless equations describe the machine.
 
-        The scale of length is the geometric mean of static deflection and displacement at
-        resonance, which makes motions of order 1. The scale of time makes omega_l^2 + |k3| = 1.
+        The scale of length is the geometric mean of the deflection by `static_force` and of
+        `resonant_displacement`. With it, dimensionless displacements are of order 1. The scale of
+        time makes omega_l^2 + |k3| = 1.
         """
         stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
         length = math.sqrt(self._static_deflection() * self.resonant_displacement)
@@ -270,7 +270,11 @@ class Machine:
 
     @property
     def static_force(self) -> float:
-        """Force (N) that holds the machine at its static deflection. Without excitation it is 0."""
+        """Static force (N) that stands for the excitation.
+
+        It is `force`, or the mass times `base_acceleration`. If neither is given, it is the force
+        of the spring at the deflection `base_displacement`, or `unbalance` divided by the mass.
+        """
         if self.force is not None:
             return self.force
         x = self._static_deflection()
@@ -355,9 +359,10 @@ def mounting(
     """Return a dictionary of `gravity` along the gap (m/s^2) and `friction` of a loose mass (N).
 
     `inclination` (radian, or text such as "90 deg") is the angle of the gap to the horizontal, by
-    default 0. `gravity` may be given instead. `normal_force` (N) presses the loose mass on its
-    floor; the default is the weight's component normal to the gap. The friction is this force times
-    `friction_coefficient`. `friction` may be given instead of both.
+    default 0. Gravity along the gap follows from it, unless `gravity` is given in its place. The
+    friction is `friction_coefficient` times `normal_force` (N), with which the loose mass presses
+    its floor. By default `normal_force` is the weight times the cosine of `inclination`. `friction`
+    may be given in place of `friction_coefficient` and `normal_force`.
     """
     mass = check_si("mass", mass, "mass", above=0)
     coefficient = check_si("friction_coefficient", friction_coefficient, "number", **FRICTIONS)

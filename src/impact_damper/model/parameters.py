@@ -190,8 +190,9 @@ class Damper:
 
     @property
     def contact_damping(self) -> float:
-        """Damping ratio zeta_c = z/sqrt(1 + rm) of the walls, as in the paper.
+        """Damping ratio zeta_c of a contact, as in the paper, if the primary mass were held fixed.
 
+        It is z/sqrt(1 + rm). z is the damping ratio of a contact in which both masses move.
         Equation (25) gives z for the paper's exit rule. `exit_rules` gives z for "no_tension".
         """
         return damping_ratio(self.restitution, self.exit_rule) / math.sqrt(1 + self.mass_ratio)

@@ -17,16 +17,17 @@ class Settling:
         Largest local error in a step of the integrator, dimensionless.
     patience : int
         Number of forcing cycles after which a run is stopped if the motion is chaotic with a
-        Lyapunov exponent above 0.05 (per unit of T). A run is also stopped if the primary mass is
-        on an orbit, and the loose mass has touched no wall for this number of cycles, and drifts by
-        less than 1 % of the clearance in `limit` cycles.
+        Lyapunov exponent above 0.05 (per unit of T). A run is also stopped if three conditions
+        hold: the primary mass is on an orbit, the loose mass has touched no wall for `patience`
+        cycles, and it is so slow that `limit` cycles would move it by less than 1 % of the
+        clearance.
     limit : int
         Number of forcing cycles after which every run that is left is judged. If chaos is certain,
         the outcome is chaotic. The outcome is drifting if two conditions hold: the primary mass is
         on an orbit, and the loose mass has touched no wall for `patience` cycles. Other motions are
         undecided.
     watched : int
-        Number of forcing cycles after a run, over which a motion that has not settled is measured.
+        Number of extra forcing cycles in which an unsettled motion's displacement is measured.
     further : int
         Largest number of forcing cycles for which an undecided run is continued. The motion may
         then prove to be quasi-periodic, chaotic, or periodic with a long period.

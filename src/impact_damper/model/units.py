@@ -57,7 +57,6 @@ NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 UNIT = r"(?:[^\W\d]\w*|[%°]\w*)(?:[²³]|(?:\^|\*\*)-?\d)?"
 TEXT = re.compile(rf"\s*({NUMBER})\s*((?:1/)?{UNIT}(?:[ */·]\s*{UNIT})*)?\s*")
 LONGEST_TEXT = 80
-# Text with two numbers and an operator between them, such as "0.05 kg * 40 mm".
 CALCULATION = re.compile(r"\s*[\d.][^*/·+]*[*/·+]\s*[\d.].*")
 
 
@@ -100,7 +99,6 @@ def _wrong_unit(value, text, unit):
 
 
 def _from_dataset(value):
-    """Turn a single value of a dataset into text with its unit. Return other values unchanged."""
     if getattr(value, "ndim", None) != 0 or hasattr(value, "magnitude"):
         return value
     units = getattr(value, "attrs", {}).get("units")
@@ -111,7 +109,6 @@ def _from_dataset(value):
 
 @cache
 def _factor(text, unit):
-    """Return the factor that converts the unit `text` to the SI unit `unit`; None if impossible."""
     import pint  # takes a third of a second; plain numbers do without pint
 
     registry = pint.get_application_registry()

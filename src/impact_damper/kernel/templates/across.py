@@ -26,7 +26,7 @@ def load_across(a):
     for i in range(LANES):
         acting += 1 if abs(a[GRAVITY + i]) + a[BASE + i] + a[FRICTION + i] > 0.0 else 0
         rough += 1 if a[FRICTION + i] > 0.0 else 0
-    # If SWAYS was 0 in the last step and stays 0, the rows below are 0 already.
+    # The rows that are set here are 0 already if SWAYS was 0 in the last step and stays 0.
     if acting > 0 or a[SWAYS] > 0.0:
         for i in range(LANES):
             a[DRAW + i] = a[GRAVITY + i]
@@ -93,7 +93,7 @@ def find_return(a):
 
     Let q be |Z2| - d0 at this wall, and f = q + LAG q'. Two kinds of contact are possible:
 
-    - f rises to zero while q > 0, before this wall is back at d0. MODE becomes MET_DEEP.
+    - f rises to zero while q > 0, so that this wall begins to push. MODE becomes MET_DEEP.
     - |Z2| reaches d0 from inside, at this or at the opposite wall. MODE becomes MET.
 
     WALL, T, END_Z1 and END_Z1_SLOPE are set as in `find_contact`. No search is needed if f falls

@@ -35,7 +35,7 @@ def expect_contact(a):
     """In lanes in which a contact is expected, move T from LENGTH to the contact's expected time.
 
     A contact is expected if the first three terms of the Taylor series of Z2 give |Z2| > d0 at the
-    time LENGTH. The expected time follows from the first half of the terms of the series of Z1.
+    time LENGTH. `guess_contact` estimates when it begins.
     """
     expected = 0
     for i in range(LANES):
@@ -51,7 +51,7 @@ def expect_contact(a):
 
 
 def guess_contact(a):
-    """Set T to the estimated time of a contact in lanes in mode BRACKET, in others to LENGTH."""
+    """Estimate when a contact begins, if MODE is BRACKET. T becomes this time, or else LENGTH."""
     for i in range(LANES):
         a[T + i] = min(first_guess(a, i), a[LENGTH + i])
     flight_early(a)
@@ -69,9 +69,9 @@ def find_contact(a):
     If there is such a time, MODE becomes MET, and WALL becomes the wall in contact. Otherwise MODE
     becomes MISSED, and T keeps its value. END_Z1 and END_Z1_SLOPE hold Z1 and Z1' at T, before the
     call and after it. `flight_step` has called `expect_contact` before. If that function expects a
-    contact, T < LENGTH, and the contact is expected at T or slightly later. APART is positive if
-    the loose mass sticks, or if the flight begins at |Z2| > d0. In these cases MODE becomes MISSED
-    without a search. In the second case `across.find_return` searches later.
+    contact, T is an estimate of its time, and T < LENGTH. Since the estimate may be too early, a
+    contact slightly after T is found too. If the loose mass sticks, or if the flight begins at
+    |Z2| > d0, APART is positive. Then MODE becomes MISSED without a search.
 
     Bounds decide most flights without a search. `change` is an upper bound on the change of Z2' in
     the flight. The wall ahead is the wall that the loose mass approaches at the beginning.
@@ -79,12 +79,10 @@ def find_contact(a):
     - `clear` is true if the loose mass cannot reach the wall ahead: the values of Z2 at 0 and at T
       are more than `sag` away from this wall. Z2 as a function of time deviates by at most `sag`
       from the straight line between both values.
-    - `left` is true if the loose mass cannot reach the wall behind. The mean of two lower bounds on
-      the distance to this wall is positive. One bound follows from the straight line, the other
-      from `change` and Z2' at the beginning.
-    - `certain` is true if the loose mass moves towards the wall ahead all the time. The mean of two
-      lower bounds on its speed is positive. One bound follows from `change` and Z2' at the
-      beginning, the other from `change` and Z2' at the end.
+    - `left` is true if a lower bound on the distance to the wall behind is positive. The bound is
+      the mean of two others, from the straight line, and from `change` and Z2' at the beginning.
+    - `certain` is true if a lower bound on the speed towards the wall ahead is positive. The bound
+      is the mean of two others, which follow from `change` and Z2' at the beginning or at the end.
     """
     undecided = 0
     expected = 0
@@ -143,8 +141,8 @@ def exclude_contacts(a):
     Return how many lanes are still undecided. Let the cubic polynomial C have the values and slopes
     of Z2 at the times 0 and T. Then |Z2 - C| is at most `most` = T^4 max|Z2''''| / 384. In each
     half of [0, T], C has four Bernstein coefficients, and |C| is at most their largest modulus.
-    Both halves share the coefficient at T/2. To bound |Z2|, `most` is added to the modulus of this
-    coefficient, and 4/3 `most` to those of the coefficients just before and just after it.
+    Both halves share the coefficient at T/2, so there are seven coefficients, c0 to c6. |Z2| is at
+    most the largest of |c0|, |c1|, |c2| + 4/3 `most`, |c3| + `most`, |c4| + 4/3 `most`, |c5|, |c6|.
     """
     flight_snap(a)
     undecided = 0

@@ -3,8 +3,7 @@
 # QUARTER + QUARTER_REST is pi/2. QUARTER has few binary digits, so that its multiples are exact.
 QUARTER = 1.5707963267341256
 QUARTER_REST = 6.077100506506192e-11
-# If the phases W t at t = TIME and t = KNOWN differ by less than NEAR (rad), `forcing` corrects
-# COSINE and SINE by the addition theorem, with Taylor polynomials of third degree.
+# Difference of phase (rad) below which `forcing` uses Taylor polynomials of third degree.
 NEAR = 1e-4
 
 
@@ -30,7 +29,7 @@ def find_circle(a):
 
 
 def find_forcing(a):
-    """Compute COSINE = A cos(W t) and SINE = A sin(W t) at the time t = KNOWN. A is F + U W^2."""
+    """Compute the forcing A cos(W t) and A sin(W t) for the time t that the caller set in KNOWN."""
     for i in range(LANES):
         a[ANGLE + i] = a[FREQUENCY + i] * a[KNOWN + i]
     find_circle(a)
@@ -43,7 +42,8 @@ def find_forcing(a):
 def forcing(a):
     """Compute COSINE = A cos(W t) and SINE = A sin(W t) at the time t = TIME. A is F + U W^2.
 
-    With one lane, if KNOWN is close to TIME, correct the values that belong to the time KNOWN.
+    Before the call both rows hold values for the time KNOWN. If LANES is 1 and KNOWN is close to
+    TIME, the new values follow from the old ones by the addition theorem.
     """
     t = a[FREQUENCY] * (a[TIME] - a[KNOWN])
     if LANES > 1 or not abs(t) < NEAR:
@@ -58,7 +58,7 @@ def forcing(a):
 
 
 def look_ahead(a):
-    """With one lane, compute COSINE and SINE for the expected end of the step, TIME + T."""
+    """If LANES is 1, compute COSINE and SINE for the expected end of the step, TIME + T."""
     if LANES == 1:
         a[KNOWN] = a[TIME] + a[T]
         find_forcing(a)

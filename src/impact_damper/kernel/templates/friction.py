@@ -175,7 +175,7 @@ def wall_force_held(a, i):
 
 
 def end_turn(a):
-    """Set Z2' to 0 if the loose mass has stopped or sticks, and to +-TINY if it begins to slide."""
+    """Set Z2' to 0 if the loose mass rests. If it begins to slide, give Z2' the sign of sliding."""
     for i in range(LANES):
         slipped = a[STUCK + i] > 0.0 and a[MODE + i] == TURNED
         held = a[STUCK + i] > 0.0 and not slipped

@@ -8,8 +8,8 @@ contact f is q + LAG q' (`separation`). The contact ends at the root of f. Value
     BRACKET   at most one root is possible. Chebyshev's method finds it, secured by bisection.
     ENDING    the search has reached the end of the step without a root.
     MET       the root has been found.
-    MISSED    no root is in the step, or the search (`across.find_return`) has not yet begun.
-    MET_DEEP  a contact begins at |Z2| > d0, before the wall is back (`across.find_return`).
+    MISSED    no root is known: the search has found none, or it has not yet begun.
+    MET_DEEP  the root has been found. There a contact begins at |Z2| > d0 (`across.find_return`).
     TURNED    before the root, the loose mass stops or begins to slide (`friction.find_turn`).
 """
 
@@ -59,7 +59,8 @@ def is_last_move(a, i, move, rate):
     """Return whether the root's estimated error is small enough to end a search after a `move`.
 
     The estimate is |r move|^3, a number without a unit. `move` is a change of the time, and r is
-    2/LENGTH or `rate`, whichever is larger. `rate` says how fast f' changes: |f''/f'| in flight.
+    2/LENGTH or `rate`, whichever is larger. In flight `rate` is |f''/f'|. In contact `rate` is n or
+    |(f'' + n^2 f)/f'|, whichever is larger, with the natural frequency n of the contact.
     """
     turn = max(rate, 2.0 / a[LENGTH + i]) * move
     return abs(turn * turn * turn) <= max(LAST_MOVE * a[TOLERANCE + i], ROUNDING)
@@ -73,8 +74,9 @@ def bracketed_step(a, i, t, f, first, bend, rate, fine):
     time with f <= 0 has been found, HIGH is FAR, and at most one root lies after LOW in the step.
     A move that would leave the interval from LOW to HIGH is replaced by bisection.
 
-    `first` is an estimate of the move to the root, such as a Newton step. `bend` is the part of f''
-    that `first` neglects, divided by f'. `rate` is a contact's natural frequency, or 0 in flight.
+    In flight `first` is Newton's move -f/f', `bend` is f''/f', and `rate` is 0. In contact `rate`
+    is the natural frequency n of the contact. `first` is then the move to the root if f'' were
+    -n^2 f, and `bend` is (f'' + n^2 f)/f'.
     """
     low = a[LOW + i] = t if f > 0.0 else a[LOW + i]
     high = a[HIGH + i] = a[HIGH + i] if f > 0.0 else t

@@ -22,7 +22,7 @@ def fast_exp2(y):
 
 
 def time_to_zero(f, slope, natural):
-    """Estimate after what time an oscillation is 0. Its value now is f, its frequency `natural`."""
+    """Estimate how long it takes until x = 0. Now x = f and x' = slope, and x'' = -natural^2 x."""
     u = natural * f * (natural * f)
     v = slope * slope
     return -f * (15.0 * v + 4.0 * u) / (slope * (15.0 * v + 9.0 * u))
@@ -67,11 +67,13 @@ def find_separation(a):
     END_DEPTH and END_DEPTH_SLOPE receive the depth Z2 - SIDE d0 and the slope of the depth at T.
 
     Here q is the depth times SIDE, n the natural frequency of the contact, and `loss` is DASHPOT
-    (1 + 1/rm). Then |q'' + n^2 q + loss q'| is at most `rest`. The phase is the angle of the point
-    (n q, q') around the origin, and R is the distance of this point from the origin. R grows at
-    most at the rate rest, and falls at most at the rate rest + loss R. The phase advances at the
-    rate n, to within rest/R + loss/2. q + LAG q' is zero twice in a revolution of the phase. If
-    rest/R + loss/2 is below PHASE_MARGIN n, the step has at most one root, and MODE is BRACKET.
+    (1 + 1/rm). `rest` is an upper bound on |Z2''| without the wall's force, during the step. Then
+    |q'' + n^2 q + loss q'| is at most `rest`. The phase is the angle of the point (n q, q') around
+    the origin, and R is the distance of this point from the origin. R falls at most at the rate
+    rest + loss R. Therefore R is at least `least` during the step. The phase advances at the rate
+    n, to within rest/R + loss/2. q + LAG q' is zero twice in a revolution of the phase. If
+    rest/least + loss/2 is below PHASE_MARGIN n, the step has at most one root, and the search
+    begins in mode BRACKET. Otherwise it begins in mode MARCH.
     """
     penetration_values(a)
     uncertain = 0

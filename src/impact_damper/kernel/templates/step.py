@@ -32,9 +32,10 @@ def largest_tail(a, i):
 def limit_length(a, series, order, excess):
     """Shorten LENGTH so that the last two terms of a velocity's series are below `largest_tail`.
 
-    Only lanes whose TAIL exceeds `excess` times `largest_tail` are changed. The coefficients c[k]
-    of the displacement stand in the rows from `series` on, and the highest k is `order`. At the
-    new LENGTH t, each of the last two terms k c[k] t^(k-1) has at most the modulus `largest_tail`.
+    The coefficients c[k] of the displacement stand in the rows from `series` on, and the highest k
+    is `order`. At the new LENGTH t, each of the last two terms k c[k] t^(k-1) has at most the
+    modulus `largest_tail`. TAIL has the largest modulus of such terms before the call. If it is at
+    most `excess` times `largest_tail`, LENGTH is not changed.
     """
     for i in range(LANES):
         most = bits(largest_tail(a, i))
@@ -70,7 +71,7 @@ def predict_length(a):
 
 
 def end_flight(a):
-    """Shorten flights whose last terms (TAIL) are too large. Store Z1 and Z1' at their ends."""
+    """Shorten flights that are too long for the Taylor series. Store Z1 and Z1' at every end."""
     flight_slope(a)
     beyond = 0
     for i in range(LANES):
