@@ -27,8 +27,8 @@ STEPS, FACTOR, HALVINGS = 256, 0.98, 30
 # ALIKE: two free orbits are equal if their states at the strobe differ by less than this number.
 # SAME: two motions with the damper are equal if their max |Z1| differ by less than this fraction.
 ALIKE, SAME = 1e-6, 1e-5
-# Grid of states in the search for orbits. SEARCHED: number of grid points along each axis. The
-# widths of the grid in Z1 and Z1' are REACH times the largest |Z1| and |Z1'| of free motions.
+# Grid of states in the search for orbits. SEARCHED: number of grid points along each axis. On both
+# sides of 0 the grid reaches REACH/2 times the largest |Z1| and |Z1'| of free motions.
 REACH, SEARCHED = 3.0, 24
 # Labels of unsettled motions, by outcome. The label of a settled motion is its attractor's index.
 LABELS = {
@@ -145,7 +145,8 @@ def _radius(coefficients, step, contraction):
     low, high = 0.0, 10.0
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
-        # Integrate r' = a r^2 + b r^3 from r = middle on, so that the error never makes r smaller.
+        # r bounds a motion's distance from the orbit; r' = a r^2 + b r^3. A step uses the rate at
+        # `ahead`, the largest r possible in the step. So the error of r is never negative.
         r = middle
         for a, b in coefficients.T:
             ahead = r + 2 * step * (a + b * r) * r * r
@@ -160,9 +161,8 @@ def _radius(coefficients, step, contraction):
 def label_damped(p, states, phase, settling, known=(), workers=1, progress=None):
     """Run motions with the damper from states (n, 4); return labels, cycles run, and attractors.
 
-    `phase` is the forcing phase of the states. The attractors are records: first those in `known`,
-    then new ones. The label of a state is the index of an attractor, or a flag in LABELS if the
-    motion does not settle.
+    `phase` is the forcing phase of the states. The attractors are records, those in `known` first.
+    A label is the index of an attractor, or a flag in LABELS if the motion does not settle.
     """
     begin = phase % (2 * np.pi) / p[FREQUENCY]
     if begin > strobe_time(p):
@@ -204,11 +204,7 @@ class ReleaseSet(NamedTuple):
 
 
 def release_set(oscillator, frequency, settling, *, cells=64, workers=1) -> ReleaseSet:
-    """Compute the release set for each of PHASES phases, on a grid of `cells`^2 coarse cells.
-
-    The goal equals its mirror image. So the set at the phase W T + pi is the mirror image of the
-    set at the phase W T, and motions are run only from phases below pi.
-    """
+    """Compute the release set for each of PHASES phases, on a grid of `cells`^2 coarse cells."""
     p = pack(oscillator, None, frequency)
     known = free_motions(oscillator, frequency, settling)
     window = REACH / 2 * np.array([known.displacement, known.speed])
@@ -223,6 +219,8 @@ def release_set(oscillator, frequency, settling, *, cells=64, workers=1) -> Rele
     size = attractors.records["maximum_displacement"][-1]
     half = WIDTH * size * np.array([1.0, p[FREQUENCY]])
     depth = []
+    # The goal equals its mirror image. So the set at the phase W T + pi is the mirror image of the
+    # set at the phase W T, and motions are run only from phases below pi.
     for k in range(PHASES // 2):
 
         def reach_goal(states, phase=2 * math.pi * k / PHASES):

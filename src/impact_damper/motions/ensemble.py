@@ -107,7 +107,6 @@ def follow_many(parameters, states, cycles, tolerance, contacts, largest):
     advance(parameters, states, sides, begins, ends, tolerance, contacts, largest)
 
 
-# The argument `kernels` of `settle_with` that runs many motions side by side.
 SIDE_BY_SIDE = settle_many, follow_many
 
 
@@ -123,7 +122,7 @@ def take(pool, m, i, parameters, states, start, tolerance, seen, out):
 
 @kernel_only
 def take_state(pool, m, i, p, states, begin, first, tolerance, y, taken, strobes):
-    """Put free motion i, if it exists, at index m of the pool. It runs from `begin` to `first`."""
+    """Put free motion i, if any, at index m of the pool; its first strobe has the time `first`."""
     if i < len(states):
         taken[m], strobes[m] = i, 0
         y[0], y[1], y[2], y[3] = states[i, 0], states[i, 1], states[i, 0], states[i, 1]

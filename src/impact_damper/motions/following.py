@@ -14,7 +14,8 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE, polish, repeats_s
 
 # Factor by which the step of the parameter grows after a successful step.
 GROWTH = 1.5
-# Newton's method may move a predicted state by at most REACH, and the first state by at most NUDGE.
+# `follow_stable` uses Newton's method. It may move a predicted state by at most REACH, and the
+# given state of the orbit by at most NUDGE.
 REACH, NUDGE = 0.03, 1e-3
 # Smallest step of the parameter. The end of a branch is found to this accuracy.
 RESOLUTION = 1e-8
@@ -60,10 +61,10 @@ def follow(
 
     `orbit` is the orbit at `start`. `correct(value, predicted state)` returns an orbit (None on
     failure) and a status. The first step goes to `target`. A step fails if `correct` fails, or if
-    Z1, Z1' or Z2 changes by `reach` or more. A failure halves the step, a success multiplies it by
-    `growth`. Following stops if a step is below `shortest`. The predicted state is that of the last
-    orbit, or, if `extrapolating`, lies on the line through the states of the last two orbits.
-    `behind`, if given, is the orbit at the value 2 start - target, and serves to extrapolate.
+    Z1, Z1' or Z2 of the new and of the last orbit differ by `reach` or more. A failure halves the
+    step, a success multiplies it by `growth`. Following stops if a step is below `shortest`. The
+    predicted state is that of the last orbit, or, if `extrapolating`, lies on the line through the
+    states of the last two orbits. `behind`, if given, is an orbit at 2 start - target.
     """
     value, step, status = start, target - start, ""
     before, last_step = (start, orbit), target - start

@@ -1,7 +1,6 @@
 """Legs: parts of a run of migration control in which the damper stays on, or stays off.
 
-Z1 and Z1' are continuous in the whole run. Switching the damper does not change them, and a settled
-motion goes on from its own last state, not from the exact state of its orbit.
+Z1 and Z1' are continuous: a leg takes them from the end of the leg before, not from an orbit.
 """
 
 import math
@@ -58,9 +57,9 @@ def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, p
     """Run a motion from strobe number `first` to number `last`, or until it settles or escapes.
 
     Strobe 0 has the time `strobe` in forcing cycles, and strobe `limit` ends the whole run. `path`
-    is as in `run`. `ring` holds the last strobe states. Return the wall in contact at the end, and
-    the last value of `near`: the distance from an orbit at which Newton's method is tried. A
-    failure of the method reduces `near`.
+    is as in `run`. `ring` holds the last strobe states. Newton's method is tried if the motion
+    seems nearer to an orbit than `near`; each failure reduces `near`. Return the wall in contact at
+    the end, and the last value of `near`.
     """
     work = workspace()
     none = np.empty((0, 4))
@@ -133,8 +132,8 @@ def hold_by_state(off, on, y, wait, place, strobe, tolerance, longest, releases)
 def depth_of(depth, half, phase, x, v):
     """Return the distance of the state Z1 = x, Z1' = v from the edge of a release set.
 
-    `depth` and `half` are those of the `ReleaseSet`; `phase` is an index. The distance is negative
-    outside the set, and -infinity outside its grid.
+    `depth` and `half` are fields of a `ReleaseSet`, and `phase` is an index on the first axis of
+    `depth`. The distance is negative outside the set, and -infinity outside its grid.
     """
     if not (abs(x) <= half[0] and abs(v) <= half[1]):
         return -math.inf
@@ -146,14 +145,14 @@ def depth_of(depth, half, phase, x, v):
 
 @kernel
 def hold(on, y, side, begin, limit, rule, draw, depth, half, tolerance, path, work):
-    """Run a motion with the damper on, from the time `begin` until a rule ends the run.
+    """Run a motion with the damper on, from the time T = `begin` until a rule ends the run.
 
-    `rule` is (kind, n, k). HOLD ends the run after n forcing cycles. PHASE ends it when W T modulo
-    2 pi is 2 pi k/PHASES for the first time after n cycles. STATE ends it when the state is in the
-    `ReleaseSet` with the fields `depth` and `half`, or after n cycles. SETTLED ends it after the
-    strobe states repeat, at the fraction `draw` of the next period. Each strobe gives a row of
-    `path` (m, 5): forcing cycles since `begin`, and the state. Return the last time, whether the
-    rule ended the run within `limit` cycles, and the number of contacts begun.
+    A run also ends after `limit` cycles. `rule` is (kind, n, k). HOLD ends the run after n forcing
+    cycles. PHASE ends it when W T modulo 2 pi is 2 pi k/PHASES for the first time after n cycles.
+    STATE ends it when the state is in the `ReleaseSet` with the fields `depth` and `half`, or after
+    n cycles. SETTLED ends it after the strobe states repeat, at the fraction `draw` of the next
+    period. Each strobe gives a row of `path` (m, 5): forcing cycles since `begin`, and the state.
+    Return the time T of the end, whether the rule ended the run, and the number of contacts begun.
     """
     kind, length, wanted = rule
     none, ring = np.empty((0, 4)), np.empty((RING, 4))

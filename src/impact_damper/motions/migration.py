@@ -21,9 +21,9 @@ from impact_damper.theory.free_oscillator import main_solutions
 MARGIN, SAMPLES = 10, 40
 # Two free motions are equal if their max |Z1| differ by less than this number.
 ALIKE = 1e-6
-# An entry of a log is one switching, on and off. Times are forcing cycles from the first strobe.
+# An entry of a log: the damper is switched on at `on_time` and off at `off_time`. Then the free
+# motion runs until `end_time`; `destination` is its kind. Times are cycles since the run began.
 # released_period, released_displacement: period and max |Z1| of the motion before switching off.
-# destination, end_time: kind of the motion after switching off, and time at which its run ends.
 SWITCHING = np.dtype(
     [(name, "f8") for name in ("on_time", "off_time", "end_time")]
     + [("released_period", "i2"), ("released_displacement", "f8"), ("destination", "i1")]
@@ -71,7 +71,7 @@ def migrate(
     seed : int or numpy.random.SeedSequence
         Seed of the random phases of switching and of the random places of the loose mass.
     longest_hold : int
-        Number of forcing cycles after which the damper is switched off in any case.
+        Forcing cycles from each switching on, after which the damper is switched off in any case.
     periods : int
         After this number of forcing cycles in a run the damper is not switched on again.
     switchings : int
@@ -187,12 +187,13 @@ def control(case, draws, longest_hold, settling, periods, releases, stop=NEVER):
     """Return the path and the log (`SWITCHING`) of one run of migration control.
 
     The run begins on the resonance motion. A row of `draws` holds three random numbers from 0 to 1:
-    the wait before switching on, the place of the loose mass (0: at one wall, 1: at the other), and
-    the wait before switching off. Waits are in periods of the motion. `releases` is the
-    `ReleaseSet`, or None to switch off after the motion has settled. The damper stays on for about
-    `longest_hold` cycles at most, and is not switched on after `periods` cycles. The path (m, 5)
-    has one row for each strobe, and one for each time at which the damper is switched on or off. A
-    row holds the time, in forcing cycles since the first strobe, and the state.
+    the wait before switching on, in periods of the free motion; the place of the loose mass (0: at
+    one wall, 1: at the other); and the wait before switching off, in periods of the motion with the
+    damper. If `releases` is None, the last wait begins when the motion has settled, at the latest
+    `longest_hold` cycles after the first strobe with the damper. Otherwise `releases` is the
+    `ReleaseSet`, the damper is on for at most `longest_hold` cycles, and the last wait is not used.
+    After `periods` cycles of the run the damper is not switched on again. The path (m, 5) has a row
+    for each strobe and for each switching on or off: forcing cycles since the first strobe, state.
     """
     y, period, strobe, path = case.state.copy(), 1, 0.0, []
     tolerance, limit = settling.tolerance, settling.limit

@@ -20,7 +20,7 @@ from impact_damper.model.packed import FREQUENCY
 from impact_damper.motions.strobe_map import STROBE, distance, speed_weight, strobe_time
 from impact_damper.motions.traces import record_beginning
 
-# A harmonic has no phase if it is below this fraction of the harmonic with which it is compared.
+# PHASELESS: see `phase_of`. A motion is symmetric if its asymmetry is below SYMMETRIC.
 PHASELESS = 1e-9
 SYMMETRIC = 1e-6
 # Number of samples in a forcing cycle from which harmonics are computed.
@@ -100,10 +100,10 @@ def survey(p, states, phases, times, tolerance, log, sums):
 
 @kernel_only
 def add_samples(c, order, moments, sample, count, sums):
-    """Add `count` samples of a polynomial c, times cos(W T) and sin(W T), to sums[0] and sums[1].
+    """Add samples of a polynomial c, times cos(W T) to sums[0] and times sin(W T) to sums[1].
 
-    c has the degree `order`. `moments` are the times of four samples, of which the first `count`
-    are used. `sample` is the number of the first sample, counted from the strobe.
+    c has the degree `order` and depends on the time since a step began. `moments` are four such
+    times, of which `count` are used. `sample` is the number of the first, counted from the strobe.
     """
     t0, t1, t2, t3 = moments
     v0 = v1 = v2 = v3 = c[order]
@@ -206,7 +206,7 @@ def is_symmetric_pair(motions):
 
 
 def phase_of(harmonic, reference):
-    """Return the phase of each harmonic minus that of `reference`; NaN if `reference` is tiny."""
+    """Return arg(harmonic) - arg(reference), or NaN if |reference| <= PHASELESS |harmonic|."""
     phaseless = np.abs(reference) <= PHASELESS * np.abs(harmonic)
     return np.where(phaseless, np.nan, np.angle(harmonic * np.conj(reference)))
 

@@ -72,9 +72,9 @@ def frequency_response(
         Seed of the random starts.
     settling : Settling, optional
     life_runs : int
-        Number of runs for each chaotic motion that measure how long it lasts; 0: no measurement.
+        Number of runs in which the life of each chaotic motion is measured. 0: no measurement.
     life_periods : int
-        Largest length of a run that measures how long a chaotic motion lasts, in forcing cycles.
+        Largest length of such a run, in forcing cycles. A life is the duration of a chaotic motion.
     workers : int
         Number of threads. The result does not depend on this number.
     progress : str, optional
@@ -153,7 +153,6 @@ def find_lives(parameters, outcomes, states, runs, periods, seed, settling, **ru
 
 
 def _lives(parameters, states, periods, settling, **running):
-    """Return the life of each transient in forcing cycles, or `periods` + 1 if it does not end."""
     records, stop = np.zeros(len(states), MOTION), np.zeros(1, bool)
 
     def work(part):
@@ -175,7 +174,7 @@ def _lives(parameters, states, periods, settling, **running):
         decay = -np.log(np.abs(records["multiplier"])) / records["period"]
         approach = np.nan_to_num(np.log(CAPTURE / NEAR) / decay)
     lives = np.maximum(lives - approach, 1)
-    # A motion that settles or escapes in the CHECKED further cycles has the life `periods`.
+    # If a transient ends within CHECKED further cycles, its life is `periods`, else periods + 1.
     still = np.isin(again["outcome"], (CHAOTIC, UNRESOLVED))
     lives[lasting] = np.where(still, periods + 1, periods)
     return lives

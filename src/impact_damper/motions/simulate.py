@@ -10,7 +10,6 @@ from impact_damper.model.packed import DAMPING, FREQUENCY
 from impact_damper.motions import traces
 from impact_damper.motions.panels import base_displacement, contact_forces, penetration, wall_force
 
-# Largest number of samples of a motion. All samples are in memory.
 MOST_SAMPLES = 10**7
 COMPONENTS = ("displacement", "velocity", "relative_displacement", "relative_velocity")
 CONTACT = "contact_wall contact_begin contact_end approach_velocity departure_velocity".split()

@@ -68,7 +68,7 @@ class Search(NamedTuple):
     free_speed: np.ndarray
 
     def variables(self, dimension=None) -> dict:
-        """Return a dict: the missed share, and the last four fields over `dimension` (if given)."""
+        """Return a dict: missed share, and fields of sizes over `dimension` (None: as scalars)."""
         names = "start_displacement", "start_speed", "free_displacement", "free_speed"
         data = {
             name: ((), values[0]) if dimension is None else (dimension, values)
@@ -156,7 +156,10 @@ def wide_starts(oscillator, damper, frequency, count, seed, settling) -> tuple:
 
 
 def random_starts(oscillator, damper, frequency, count, seed, settling) -> tuple:
-    """Return random starts (count, 4), and the bounds on |Z1| and |Z1'| of the starts."""
+    """Return random starts (count, 4), and the bounds on their |Z1| and |Z1'|.
+
+    The bounds follow from |Z1| and |Z1'| of the free motions, which are run with `settling`.
+    """
     generator = np.random.default_rng(seed)
     free = free_motions(oscillator, frequency, settling)
     crossing = 0.0 if damper is None else _crossing_speed(damper, frequency)
@@ -242,13 +245,11 @@ class FreeMotions(NamedTuple):
 
 @lru_cache(1024)
 def free_motions(oscillator, frequency, settling) -> FreeMotions:
-    """Find the free motions at one frequency W, by runs from rest and from harmonic balance.
-
-    Near a fold harmonic balance can miss motions, so runs also start at the peak amplitude.
-    """
+    """Find the free motions at one frequency W, by runs from rest and from harmonic balance."""
     p = pack(oscillator, None, frequency)
     angles = 2 * np.pi * np.arange(PHASES) / PHASES
     sizes = list(balance_amplitudes(oscillator, frequency))
+    # Near a fold harmonic balance can miss motions, so runs also start at the peak amplitude.
     with suppress(ValueError):  # raised if there is no peak
         sizes.append(maximum_response(oscillator).amplitude)
     turns = np.stack([np.cos(angles), -frequency * np.sin(angles)], axis=1)

@@ -48,10 +48,10 @@ def steady_motion(
     -------
     xarray.Dataset
         Outcome (see `decode`), period, contacts per forcing cycle, largest |Z1|, asymmetry (0 if
-        the motion becomes its mirror image in half a period), phases of harmonics, multiplier,
-        Lyapunov exponent, and the frequencies of a quasi-periodic motion. `state` is the state at
-        W T = pi/2, and has this phase as a coordinate. As argument `state` of `simulate` or of this
-        function it continues the motion, for example at the next frequency of a sweep.
+        the motion becomes its mirror image in half a period), phase of the first harmonic of Z1
+        minus those of Z2 and of the loose mass, dominant multiplier, Lyapunov exponent, frequencies
+        of a quasi-periodic motion. `state` is the state at W T = pi/2, and has this phase as a
+        coordinate. As argument `state` of `simulate` or of this function it continues the motion.
 
     Examples
     --------
@@ -98,7 +98,7 @@ def steady_orbit(system, damper, frequency, state, *, samples=200, settling=None
 def run_chunks(work, count, workers, progress, stop, size=CHUNK):
     """Divide range(count) into slices of length `size`; call `work(slice)` on `workers` threads.
 
-    After an error or Ctrl-C the function sets `stop[0]` and does not wait for calls that still run.
+    An error or Ctrl-C sets `stop[0]`. Calls of `work` that still run then end soon by themselves.
     """
     bounds.check_count("workers", workers, most=4096)
     slices = [slice(first, min(first + size, count)) for first in range(0, count, size)]
@@ -168,5 +168,4 @@ def settle_each(parameters, states, start, tolerance, patience, limit, out, stop
         assign(out[i].state, y)
 
 
-# The argument `kernels` of `settle_with` that runs one motion after the other.
 ONE_BY_ONE = settle_each, follow_each

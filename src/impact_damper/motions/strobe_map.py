@@ -140,8 +140,8 @@ def dominant(values):
 def polish(p, y, periods, reach, tolerance):
     """Move y onto an orbit that repeats after `periods` forcing cycles, by Newton's method.
 
-    Without contacts only Z1 and Z1' are unknown. A change of Z1, Z1' or Z2 by `reach` or more is a
-    failure. Return whether the method has converged, the residual, and the dominant multiplier.
+    Without contacts only Z1, Z1' are unknown. A total change of Z1, Z1' or Z2 by `reach` or more is
+    a failure. Return whether the method has converged, the residual, and the dominant multiplier.
     """
     orbit = y.copy()
     for _ in range(ITERATIONS):

@@ -29,8 +29,8 @@ SAME, ROUNDING, SIMILAR = 1e-6, 1e-11, 1.5
 # Outcomes with infinite or zero max |Z1|. All motions with one such outcome count as one motion.
 ALIKE = tuple(flag("outcome", name) for name in ("diverged", "escaped", "at_rest"))
 # Search for orbits by Newton's method. LONGEST: longest period in cycles. REACH: largest distance
-# of an orbit from its first guess, divided by d0 or by the largest |Z1| or |Z1'| of known motions,
-# whichever is larger. SAME_ORBIT: two orbits are equal if their states differ by less.
+# of an orbit from its first guess, divided by the greatest of all the numbers d0, |Z1| and |Z1'| of
+# known motions. SAME_ORBIT: two orbits are equal if their states differ by less.
 LONGEST, REACH, SAME_ORBIT = 5, 1.0, 1e-6
 # Events at the end of a branch. At a bifurcation the modulus of the orbit's multiplier is above
 # CRITICAL. A multiplier is complex if its imaginary part is above COMPLEX. At a loss of symmetry
@@ -41,9 +41,10 @@ CRITICAL, COMPLEX, CLOSE = 0.98, 1e-3, 0.05
 def sweep(parameters, index, dimension, search, settling, *, workers=1, progress=None):
     """Find all motions along a sweep of one parameter; return dataset variables as a dict.
 
-    The rows of packed `parameters` differ in the column `index`. `dimension` is the name of the
-    parameter in this column. The dimensions of variables are (dimension, motion) for motions,
-    (dimension, start) for runs, and (end) for the ends of branches.
+    The rows of packed `parameters` differ in the column `index`, which holds the parameter named
+    `dimension`. `search` holds start states for each row. Variables that describe motions lie over
+    (`dimension`, motion), and those that describe runs from random starts over (`dimension`,
+    start). Variables that describe ends of branches lie over (end).
     """
     size, starts = search.random.shape[:2]
     rows, states = np.repeat(parameters, starts, axis=0), search.random.reshape(-1, 4)
@@ -122,7 +123,6 @@ def _follow(source, target, index, settling, links, ends):
 
 
 def _end_event(record, multiplier, beyond):
-    """Return the name of the event that ends a branch. `beyond` is the motion beyond this end."""
     if not abs(multiplier) >= CRITICAL:
         return "not_smooth"
     if abs(multiplier.imag) > COMPLEX:
@@ -137,7 +137,6 @@ def _end_event(record, multiplier, beyond):
 
 
 def _branches(catalogues, links):
-    """Return the branch index of each motion. A link is a pair of settled motions on one branch."""
     links = links + [
         (first.numbers[i], second.numbers[j])
         for first, second in pairwise(catalogues)
@@ -208,8 +207,7 @@ class Catalogue:
     def add(self, record, origin):
         """Add the motion of a record, unless the motion is known; return the motion's index.
 
-        `origin` says how the motion was found. Of two records of the same motion, the one with the
-        larger max |Z1| is kept.
+        `origin` says how it was found. The record with the largest max |Z1| of a motion is kept.
         """
         i = self.find(record)
         if i is None:
@@ -249,8 +247,8 @@ def match_unsettled(first, second) -> list:
 def size_ratio(one, other):
     """Return the larger max |Z1| of two motions divided by the smaller.
 
-    A motion without a period may have a small max |Z1| by chance. For two such motions return the
-    ratio of the fields `reach`, if it is smaller.
+    A motion without a period may have a small max |Z1| by chance. For two such motions the fields
+    `reach` give a second ratio, and the smaller of both ratios is returned.
     """
     if one["maximum_displacement"] == other["maximum_displacement"]:
         return 1.0

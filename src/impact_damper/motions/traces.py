@@ -69,7 +69,7 @@ def trace_steps(p, y, t, side, sample, contacts, times, tolerance, states, log):
 
 @kernel_only
 def record_beginning(log, contacts, side, t, speed):
-    """Log the beginning of a contact, if `log` has a row left; return the number of contacts."""
+    """If log[contacts] exists, begin a contact there with Z2' = `speed`. Return contacts + 1."""
     if contacts < len(log):
         log[contacts, 0], log[contacts, 1], log[contacts, 2] = side, t, np.nan
         log[contacts, 3], log[contacts, 4] = speed, np.nan

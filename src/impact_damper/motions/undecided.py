@@ -21,8 +21,8 @@ from impact_damper.motions import records
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE, one_period, polish
 from impact_damper.motions.watch import CONFIDENCE, LONGEST_PERIOD, NEAR, normalise
 
-# A motion is run in blocks. FIRST: largest number of forcing cycles in the first block. BATCHES:
-# number of batches in a block. Their scatter gives the standard error of the Lyapunov exponent.
+# A motion is run in blocks. FIRST: largest number of forcing cycles in the first block. A block has
+# BATCHES parts. Each part gives a Lyapunov exponent. Their scatter gives the error of the mean.
 FIRST, BATCHES = 1500, 30
 # A motion is chaotic only if its tangent grows in a block by more than the factor exp(GROWN). While
 # a motion leaves an unstable orbit, a rounding error grows by less, about 1e16 = exp(37).
@@ -40,11 +40,12 @@ TORUS += ["first_frequency", "second_frequency", "frequency_error"]
 # AGREEMENT: largest error with which a rotation number is accepted.
 # FEWEST: smallest number of points from which a rotation number is computed.
 AGREEMENT, FEWEST = 1e-8, 100
-# The angle around a closed curve's centre advances from each point to the next. Advances are known
-# modulo 1 revolution. The mean is taken only if some interval of this length has no advance.
+# Advances of an angle are known modulo 1 revolution. `find_rotation` averages them only if some
+# interval of at least this length, in revolutions modulo 1, contains no advance.
 INTERVAL = 0.02
-# TURN: largest change, in revolutions, of the angle around the centre of a closed curve between two
-# neighbouring points. WANDERING: largest sum of the moduli of all these changes on the curve.
+# `find_rotation` rejects a curve if the angle around its centre, in revolutions, changes by TURN or
+# more between points next to each other on the curve. It also rejects a curve if the moduli of all
+# these changes have a sum of WANDERING or more.
 TURN, WANDERING = 0.05, 3.0
 
 
@@ -155,7 +156,6 @@ def _on_orbit(p, record, states, contacts, limit):
     for n in np.flatnonzero(near) + 1:
         y, n = last.copy(), int(n)
         found, residual, multiplier = polish(p, y, n, REACH, POLISH_TOLERANCE)
-        # The candidates n ascend, so the first orbit found has the smallest period n.
         if not found or abs(multiplier) >= 1:
             continue
         duration = n * 2 * math.pi / p[FREQUENCY]
@@ -207,7 +207,6 @@ def find_rotation(points):
         return None
     angle = np.angle(_rounded(points)) / (2 * math.pi)
     advance = np.diff(angle) % 1
-    # Advances are known modulo 1. Take each between `cut` and `cut` + 1. No advance is near `cut`.
     order = np.sort(advance)
     intervals = np.diff(order, append=order[0] + 1)
     widest = np.argmax(intervals)

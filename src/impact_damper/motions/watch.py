@@ -25,7 +25,7 @@ from impact_damper.motions.strobe_map import (
 )
 
 # LONGEST_PERIOD: longest period of an orbit that is looked for, in forcing cycles.
-# RING: number of strobes, up to the present one, whose states are stored.
+# RING: number of last strobes whose states an array `ring` holds: ring[k % RING] for strobe k.
 LONGEST_PERIOD = 12
 RING = 2 * LONGEST_PERIOD + 1
 # A motion is chaotic if its Lyapunov exponent exceeds CONFIDENCE standard errors. An exponent below
@@ -70,7 +70,7 @@ def normalise(tangent):
 
 @kernel_only
 def follow_tangent(tangent, growth):
-    """Scale a tangent to the length 1; add its growth to the statistics in `growth` (SEEN)."""
+    """Scale a tangent to the length 1, and update `growth`, a record with the dtype SEEN."""
     growth.batch += normalise(tangent)
     growth.periods += 1
     if growth.periods % BLOCK == 0:
@@ -84,7 +84,11 @@ def follow_tangent(tangent, growth):
 
 @kernel
 def exponent(growth):
-    """Return a tangent's mean logarithmic growth in a batch, its error, and if growth lasts."""
+    """Return the mean growth of a tangent, its standard error, and whether recent growth is large.
+
+    In a batch, growth is the logarithm of the factor by which the tangent grows. The mean is over
+    all batches. Recent growth is large if the last RECENT batches have more than half of this mean.
+    """
     count = growth.periods // BLOCK
     recent = 0.0
     for i in range(RECENT):
@@ -142,7 +146,7 @@ def move_onto_orbit(p, y, periods, near, out):
 
 @kernel_only
 def approaches(ring, k, n, weight):
-    """Return whether the last RETURNS distances between strobe states n cycles apart decrease."""
+    """Return whether the last RETURNS distances of states in `ring`, n cycles apart, decrease."""
     before = 0.0
     for j in range(RETURNS):
         if k < (j + 1) * n or (j + 1) * n >= RING:
@@ -158,11 +162,12 @@ def approaches(ring, k, n, weight):
 def is_linear(p, y, ring, k, n, weight):
     """Return whether the approach to an orbit is so nearly linear that the motion will reach it.
 
-    y is a state of the orbit, n its period. In a period a difference e from the orbit becomes
-    M e + r, with a matrix M and |r| <= c |e|^2. The number c is measured in the last two periods.
-    c times the sum of |e| over at most APPROACH further periods must not exceed NONLINEAR. All of
-    7 000 motions that passed this test stayed at their orbits. So the test is wrong for at most
-    0.05 % of the motions that pass, with 95 % confidence.
+    y is an exact state of the orbit, n its period. The motion is given by `ring`, `k` and `weight`
+    as in `nearby_period`. In a period a difference e of the motion from the orbit becomes M e + r,
+    with a matrix M and |r| <= c |e|^2. The number c is measured in the last two periods. c times
+    the sum of |e| over at most APPROACH further periods must not exceed NONLINEAR. All of 7 000
+    motions that passed this test stayed at their orbits. So with 95 % confidence the test is wrong
+    for at most 0.05 % of the motions that pass.
     """
     _, matrix, contacts = period_map(p, y, n, POLISH_TOLERANCE)
     # Without a contact in the orbit's period, the loose mass may drift and touch a wall later.
@@ -208,7 +213,10 @@ def leave_transient(p, out):
 
 @kernel_only
 def stays_without_contact(p, y, ring, k, out):
-    """Return whether a stable orbit without contact is near y; if so, put Z1, Z1' on the orbit."""
+    """Return whether a stable orbit without contact is near y; if so, put Z1, Z1' on the orbit.
+
+    y is the state at strobe number k. `ring` holds the states at earlier strobes.
+    """
     for n in range(1, min(k, LONGEST_PERIOD) + 1):
         before = ring[(k - n) % RING]
         if max(abs(y[0] - before[0]), abs(y[1] - before[1])) < NEAR:

@@ -180,7 +180,6 @@ def _rigid_table(oscillator, damper, frequencies):
     }
 
 
-# Constants of the search for the edges of the band.
 SEARCHED = (0.2, 2.0)  # lowest and highest W/Wp
 SEARCH_STEP = 0.005  # step of W/Wp
 EDGE_TOLERANCE = 1e-10  # largest error of W at an edge
@@ -265,7 +264,11 @@ def _smallest(oscillator, damper, frequency):
 
 
 def analytical_table(oscillator, dampers, frequency):
-    """Return the smallest stable |a| by (7) for each damper, and the clearance at which a is 0."""
+    """Return variables for `dampers` that differ only in clearance, in ascending order.
+
+    The variables are the smallest stable |a| by (7) for each damper, and one clearance at which a
+    is 0. It is searched between each damper and the next, and is NaN if there is none.
+    """
     found = [_smallest(oscillator, each, frequency) for each in dampers]
     signed, status = np.array([size for size, _ in found]), [name for _, name in found]
     best = np.nan

@@ -136,10 +136,8 @@ class _Balance:
         )
 
     def angle_range(self):
-        """Return the range of p that contains all solutions. If it is empty, its ends are equal.
-
-        (7b) gives |a| <= f/(h W). (7a) bounds |g a^3| by the absolute values of its other terms.
-        """
+        """Return the range of p that contains all solutions. If it is empty, its ends are equal."""
+        # (7b) gives |a| <= f/(h W). (7a) bounds |g a^3| by the absolute values of its other terms.
         reach = self.force / self.drag
         if reach == 0:
             return 0.0, 0.0
@@ -152,7 +150,6 @@ class _Balance:
         return self._angles_within(bound) if bound < reach else (lower, upper)
 
     def _angles_within(self, reach):
-        """Return the range of p that contains every solution with |a| <= reach."""
         reach *= 1 + 1e-6
         spring = reach * (abs(self.detuning) + abs(self.hardening) * reach**2)
         largest = reach + (self.force + spring) / self.inertia
@@ -169,11 +166,9 @@ class _Balance:
 
 
 def _excess(angle):
-    """Return p - sin(p) cos(p) for 0 <= p <= pi/2, without loss of digits at small p.
-
-    With e(x) = x - sin(x), the result is e(2p)/2. A Taylor series gives e(2p/9). The formula
-    e(3y) = 3 e(y) + 4 sin^3(y), used twice, then gives e(2p/3) and e(2p).
-    """
+    """Return p - sin(p) cos(p) for 0 <= p <= pi/2, without loss of digits at small p."""
+    # With e(x) = x - sin(x), the result is e(2p)/2. A Taylor series gives e(2p/9). The formula
+    # e(3y) = 3 e(y) + 4 sin^3(y), used twice, then gives e(2p/3) and e(2p).
     third = angle * (2 / 3)
     ninth = third / 3
     square = ninth * ninth

@@ -24,9 +24,9 @@ class Flight(NamedTuple):
     """The quiet (small) motion near the optimum clearance.
 
     x = W^2 Z1/f is driven by the forcing and by impacts (docs/explanation/straight_flight.md).
-    Phases phi count from the minimum that x would have without impacts. At the phase phi = s, the
-    lag, an impact changes dx/dphi by 4 q/pi. The number q is called `impulse`. An elastic contact
-    lasts the time t, and `contact` is W t/pi. `damping` is h/W. `stiffness` is wl/W, below 1.
+    Phases phi count from the minimum that x would have without impacts. At the phase phi = s an
+    impact changes dx/dphi by 4 q/pi. The number q is called `impulse`. An elastic contact lasts the
+    time t, and `contact` is W t/pi. `damping` is h/W. `stiffness` is wl/W, below 1.
     """
 
     mass_ratio: float
@@ -47,7 +47,7 @@ class Flight(NamedTuple):
 
     @property
     def loss(self):
-        """The ratio sin(s)/q for impacts at rigid walls, with the lag s and the `impulse` q."""
+        """Ratio sin(s)/q of an impact's phase s and impulse q at rigid walls; 0 without losses."""
         impact = (1 + 1 / self.mass_ratio) * (1 - self.restitution) / (1 + self.restitution)
         damping = self._difference(lambda root: root * np.tanh(np.pi * root / 2))
         return 2 / np.pi * (impact - damping) / self.forced
@@ -59,12 +59,15 @@ class Flight(NamedTuple):
 
     @property
     def reach(self):
-        """Decrease of rm W^2 d0/f because contacts take time, divided by (1 + rm) q."""
+        """Number c: contacts that take time reduce the clearance rm W^2 d0/f by c (1 + rm) q.
+
+        f is the forcing amplitude and q the `impulse`.
+        """
         return 4 / np.pi * self.contact_phase * self.restitution / (1 + self.restitution) ** 2
 
     @property
     def setback(self):
-        """Decrease of the lag s because contacts take time."""
+        """Decrease of the phase s of an impact because contacts take time."""
         asymmetry = (1 - self.restitution) / (1 + self.restitution)
         return self.contact_phase * asymmetry - 2 * damping_ratio(self.restitution) * self.contact
 
@@ -75,17 +78,17 @@ class Flight(NamedTuple):
         return min(bound, 1 / self.loss) if self.loss > 0 else bound
 
     def lag(self, impulse):
-        """Return the lag s of an impact with `impulse` q."""
+        """Return the phase s of an impact with `impulse` q."""
         return np.arcsin(np.minimum(self.loss * impulse, 1.0)) - self.setback
 
     def _difference(self, function):
-        """Return (f(r) - f(u))/(r - u). r, u are the roots of z^2 + damping z + stiffness^2 = 0."""
+        # The roots z of z^2 + damping z + stiffness^2 = 0. They differ by 2 half.
         half = np.sqrt(complex(self.damping**2 / 4 - self.stiffness**2)) or APART
         roots = -self.damping / 2 + half, -self.damping / 2 - half
         return ((function(roots[0]) - function(roots[1])) / (2 * half)).real
 
     def motion(self, phase, impulse):
-        """Return x and its first two derivatives at a phase between an impact and the next one."""
+        """Return x, dx/dphi, d2x/dphi2 at phi = `phase` between two impacts (phi: see `Flight`)."""
         y = np.pi / 2 - (phase - self.lag(impulse))
         pushed = [
             -2
