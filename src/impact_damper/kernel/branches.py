@@ -228,7 +228,7 @@ class Body(ast.NodeVisitor):
         self.builder.position_at_end(after)
 
     def visit_For(self, node):
-        """Unroll a loop with one round, or with another variable than `i`. Else loop in LLVM."""
+        """Unroll a loop that has one round or whose variable is not `i`. Else loop in LLVM."""
         count, counter = self.visit(node.iter.args[0]), node.target.id
         if counter == "i" and count > 1:
             with cgutils.for_range(self.builder, ir.Constant(INTEGER, count)) as loop:

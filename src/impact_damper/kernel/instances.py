@@ -321,8 +321,8 @@ class Source(Writer):
         The series are summed at the time that the row named `time` has. In `results` a key is the
         name of the row for a sum, and its value is the series: "X" is the series X, "X'" its first
         derivative, and "|X|" the series of the moduli of its terms. A sum begins with coefficient
-        `begin` of X, also if X' is summed, and has at most `terms` terms. It is divided by the
-        power of t in its first term. The kernel ends with the lines of code `then`.
+        `begin` of X, also if X' is summed, and has at most `terms` terms. Each sum is divided by
+        the power of t in its first term. The kernel ends with the lines of code `then`.
         """
         lines = [*self._time(time, phase)]
         first = list(lines) if self.lanes == 1 else []

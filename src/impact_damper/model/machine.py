@@ -236,9 +236,9 @@ class Machine:
     def scales(self) -> Scales:
         """Scales with which the dimensionless equations describe the machine.
 
-        The scale of length is the geometric mean of the deflection by `static_force` and of
-        `resonant_displacement`. With it, dimensionless displacements are of order 1. The scale of
-        time makes omega_l^2 + |k3| = 1.
+        The scale of length is the geometric mean of `resonant_displacement` and of the deflection
+        that `static_force` causes. With this scale, dimensionless displacements are of order 1.
+        The scale of time makes omega_l^2 + |k3| = 1.
         """
         stiffness, cubic = self.linear_stiffness, abs(self.cubic_stiffness)
         length = math.sqrt(self._static_deflection() * self.resonant_displacement)

@@ -51,7 +51,7 @@ def expect_contact(a):
 
 
 def guess_contact(a):
-    """Estimate when a contact begins, if MODE is BRACKET. T becomes this time, or else LENGTH."""
+    """If MODE is BRACKET, set T to the estimated time of a contact. Otherwise set T to LENGTH."""
     for i in range(LANES):
         a[T + i] = min(first_guess(a, i), a[LENGTH + i])
     flight_early(a)

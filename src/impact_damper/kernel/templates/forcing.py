@@ -3,7 +3,7 @@
 # QUARTER + QUARTER_REST is pi/2. QUARTER has few binary digits, so that its multiples are exact.
 QUARTER = 1.5707963267341256
 QUARTER_REST = 6.077100506506192e-11
-# Difference of phase (rad) below which `forcing` uses Taylor polynomials of third degree.
+# If the phase W t has changed by less than NEAR (rad), `forcing` uses a Taylor series of order 3.
 NEAR = 1e-4
 
 
@@ -29,7 +29,7 @@ def find_circle(a):
 
 
 def find_forcing(a):
-    """Compute the forcing A cos(W t) and A sin(W t) for the time t that the caller set in KNOWN."""
+    """For t = KNOWN, set by the caller, compute (F + U W^2) cos(W t) and (F + U W^2) sin(W t)."""
     for i in range(LANES):
         a[ANGLE + i] = a[FREQUENCY + i] * a[KNOWN + i]
     find_circle(a)

@@ -75,8 +75,8 @@ def bracketed_step(a, i, t, f, first, bend, rate, fine):
     A move that would leave the interval from LOW to HIGH is replaced by bisection.
 
     In flight `first` is Newton's move -f/f', `bend` is f''/f', and `rate` is 0. In contact `rate`
-    is the natural frequency n of the contact. `first` is then the move to the root if f'' were
-    -n^2 f, and `bend` is (f'' + n^2 f)/f'.
+    is the natural frequency n of the contact. `first` then estimates the move by the
+    assumption f'' = -n^2 f, and `bend` is (f'' + n^2 f)/f'.
     """
     low = a[LOW + i] = t if f > 0.0 else a[LOW + i]
     high = a[HIGH + i] = a[HIGH + i] if f > 0.0 else t

@@ -71,7 +71,7 @@ def predict_length(a):
 
 
 def end_flight(a):
-    """Shorten flights that are too long for the Taylor series. Store Z1 and Z1' at every end."""
+    """Shorten flights that are too long for their series. Store Z1 and Z1' at each flight's end."""
     flight_slope(a)
     beyond = 0
     for i in range(LANES):
