@@ -90,7 +90,11 @@ def reference_of(scene, stored):
 
 
 def accuracy(system, damper, *, name, settings, references, **given):
-    """Return a dataset: errors and operations of integrators and models on the scene `name`."""
+    """Return a dataset: errors and operations of integrators and models on the scene `name`.
+
+    `settings` is the section `comparison` of the configuration. `references` is the content of
+    `resources/references.json`. `given` holds the other fields of a `ComparisonScene`.
+    """
     scene = ComparisonScene(oscillator=system, damper=damper, **given)
     if scene.motion == "chaotic":
         data = _averages(scene, settings)

@@ -36,7 +36,6 @@ class _Wave(NamedTuple):
         return self.level + decay * (self.a * math.cos(self.w * s) + self.b * math.sin(self.w * s))
 
     def slope(self):
-        """Return the derivative by s, which is a `_Wave` too."""
         a, b, z, w = self.a, self.b, self.z, self.w
         return _Wave(0.0, w * b - z * a, -z * b - w * a, z, w)
 

@@ -44,9 +44,8 @@ def largest(coefficients, harmonics) -> float:
 def intervals(coefficients, harmonics, level) -> np.ndarray:
     """Return a row (wall, begin, end) for each interval in which a series z has |z| > level.
 
-    `wall` is 1 if z > level, and -1 if z < -level. The search divides a period into cells. It
-    halves a cell until a bound on z'' proves that z crosses the level at most once in the cell. It
-    misses no interval wider than SHORTEST.
+    `wall` is 1 if z > level, and -1 if z < -level. The search uses a bound on z'', and misses no
+    interval wider than SHORTEST.
     """
     return np.concatenate([_beyond(coefficients, harmonics, level, wall) for wall in (1, -1)])
 

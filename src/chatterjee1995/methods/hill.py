@@ -9,16 +9,16 @@ from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigs
 # With more than DENSE unknowns, only the 4 * COPIES eigenvalues nearest to 0 are computed.
 DENSE, COPIES = 100, 3
 # Each exponent is found several times, in copies that differ by 2 i W, since the linearised
-# equations repeat after half a cycle. The copy with -W < Im <= W is kept. EDGE * W is the largest
-# rounding error of Im that does no harm.
+# equations repeat after half a cycle. The copy with -W < Im <= W is kept. If Im differs from W or
+# from -W by less than EDGE * W, it counts as W or -W.
 EDGE = 1e-2
 
 
 class Exponents(NamedTuple):
-    """Floquet exponents per unit of T in the order of their real parts: 2, or 4 with a damper.
+    """The Floquet exponents, 2 or with a damper 4, in the order of rising real parts.
 
-    The status is "found", "not_converged" if the search for eigenvalues fails, or "not_separated"
-    if it finds another number of exponents. In the last two cases all exponents are NaN.
+    The status is "found"; "not_converged" if the search for eigenvalues fails; "not_separated" if
+    the search finds more or fewer exponents than 2 or 4. In the last two cases all values are NaN.
     """
 
     values: np.ndarray

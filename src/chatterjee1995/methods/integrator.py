@@ -42,10 +42,11 @@ class Integrator:
     number of steps in a cycle if all steps are equal (`fixed`), and otherwise a tolerance.
 
     Figures show integrators in the order of `place`. `compared` names the stages that use the
-    integrator. For each of these stages the integrator defines one of the functions in REQUIRED.
-    `located` holds the values of `locate` that the stage `accuracy` compares. `tolerances` is one
-    of `labels.TOLERANCE_KEYS`. A `slow` integrator runs for fewer cycles. `stability_limit` is the
-    largest step, times natural frequency, with which an undamped linear oscillation stays bounded.
+    integrator. For each of these stages the integrator defines one of the functions that REQUIRED
+    lists for the stage. `located` holds the values of `locate` that the stage `accuracy` compares.
+    This stage runs `slow` integrators for fewer cycles of a chaotic motion than the others.
+    `tolerances` is one of `labels.TOLERANCE_KEYS`. `stability_limit` is the largest step, times
+    natural frequency, with which an undamped linear oscillation stays bounded.
     """
 
     REQUIRED: ClassVar = {
@@ -77,17 +78,13 @@ class Integrator:
         return read_off(p, work, times, ends)
 
     def flight(self, p, state, end, resolution, time):
-        """Run without walls from T = 0 to `end`. Return |Z2| after each step, and |Z2| at `time`.
-
-        If the run fails, return None.
-        """
+        """Return |Z2| after each step and at `time` in a run without walls, or None if it fails."""
         raise NotImplementedError
 
     def touches(self, p, state, levels, resolution):
         """Return for each clearance in `levels` whether the integrator finds a contact.
 
-        By default return None. The caller then decides: the integrator finds a contact if `flight`
-        returns a |Z2| larger than the clearance.
+        By default return None. A contact is then found if `flight` returns a larger |Z2|.
         """
 
     def largest_displacements(self, p, start, begin, periods, steps) -> np.ndarray:

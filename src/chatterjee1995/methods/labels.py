@@ -2,8 +2,7 @@
 
 from chatterjee1995.methods.integrators import integrators, runs_of_accuracy
 
-# ERRORS: quantities whose errors the stage `accuracy` computes, if a motion is not chaotic.
-# STATISTICS: averages whose errors the stage computes, if a motion is chaotic.
+# Quantities whose errors the stage `accuracy` computes. STATISTICS are for chaotic motions.
 ERRORS = ("amplitude", "state", "contact_time", "contacts")
 STATISTICS = ("contact_rate", "displacement", "exponent")
 

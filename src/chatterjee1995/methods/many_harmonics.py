@@ -125,7 +125,6 @@ class Balance:
 
 
 def _convolution(coefficients, harmonics):
-    """Return A and B. The series z times the series `coefficients` is A z + B conj(z)."""
     two_sided = np.concatenate([coefficients[:0:-1].conj(), coefficients])
     zero = len(coefficients) - 1
     column = harmonics[:, None]
@@ -138,9 +137,8 @@ def _real(by_value, by_conjugate):
     return np.block([[total.real, -difference.imag], [total.imag, difference.real]])
 
 
-# TOLERANCE: Newton's method has converged if max |change| <= TOLERANCE * max |coefficient|.
-# ITERATIONS: largest number of steps of Newton's method.
-# LEAST_DAMPING: smallest factor by which a step of Newton's method is shortened.
+# Newton's method has converged if max |change| <= TOLERANCE * max |coefficient|. It takes at most
+# ITERATIONS steps. LEAST_DAMPING is the smallest factor by which it multiplies a step.
 TOLERANCE, ITERATIONS, LEAST_DAMPING = 1e-11, 40, 1e-4
 
 

@@ -45,9 +45,10 @@ def missed_contacts(
 ):
     """Return a dataset with the numbers of contacts near grazing that integrators find and miss.
 
-    `passages` motions begin at random states in a ball of the given `radius`. In turn the wall is
-    placed so that the loose mass enters it to each of `depths`, or misses it by this distance.
-    Integrators with equal steps use `steps`, the numbers of steps in a cycle, not `tolerances`.
+    `passages` motions begin at random states in a ball of the given `radius`. For each of `depths`
+    the wall is placed twice: so that the loose mass enters the wall by this depth, and so that it
+    turns back at the same distance before the wall. Integrators with equal steps use `steps`, the
+    numbers of steps in a cycle, not `tolerances`.
     """
     depths = read_increasing(UNITLESS, "depths", depths, above=0.0)
     tolerances = read_increasing(UNITLESS, "tolerances", tolerances, **METHOD_TOLERANCE_RANGE)
@@ -70,9 +71,10 @@ def missed_contacts(
 
 
 def counts(integrator, p, passages, depths, resolution):
-    """Return two tables with counts for each depth, and the median error of max |Z2|.
+    """Return two arrays with counts, and the median error of max |Z2|.
 
-    The tables count contacts with each of OUTCOMES, and reports of contacts that do not exist.
+    The first array counts contacts. It has a row for each depth and a column for each of OUTCOMES.
+    The second has a number for each depth: how many contacts are reported that do not exist.
     """
     end = 2 * math.pi / p[FREQUENCY]
     touching = np.zeros((len(depths), len(OUTCOMES)), int)

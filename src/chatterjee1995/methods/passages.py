@@ -70,8 +70,8 @@ def without_walls(p):
 def draw_passages(p, count, radius, deepest, seed) -> list:
     """Return `count` passages from random states in a ball of the given radius.
 
-    For a contact of the depth `deepest` the wall stands at max |Z2| - deepest. In each passage this
-    number exceeds `deepest`, and exceeds |Z2| at the beginning and at the end of the passage.
+    With walls at |Z2| = d, where d = max |Z2| - `deepest`, contacts would be up to `deepest` deep.
+    Each passage begins and ends between such walls, and d exceeds `deepest`.
     """
     random = np.random.default_rng(seed)
     flying = without_walls(p)

@@ -1,9 +1,4 @@
-"""The quiet orbit, stable or not, on a grid of parameters, and rules for the optimum clearance.
-
-After half a cycle a symmetric orbit has its initial state with the opposite sign. So this state is
-a fixed point of the map "integrate half a cycle, then change the sign". The derivative of this map
-is called the root, since its square is the derivative of the map of a full cycle.
-"""
+"""The quiet orbit, stable or not, on a grid of parameters, and rules for the optimum clearance."""
 
 from typing import NamedTuple
 
@@ -28,9 +23,10 @@ class CompliantOrbit(NamedTuple):
 
 
 def compliant_orbit(p, guess, reach, *, tolerance=POLISH_TOLERANCE, asymmetry=SYMMETRIC):
-    """Return the `CompliantOrbit` near the state `guess`, or None, and a status.
+    """Return the `CompliantOrbit` near the state `guess` at W T = pi/2, or None, and a status.
 
-    The orbit differs from the guess by less than `reach`. Its asymmetry is below `asymmetry`.
+    The state of the orbit differs from the guess by less than `reach`. Half a cycle later the state
+    has the opposite sign, with an error below `asymmetry`.
     """
     state = np.array(guess, float)
     converged, _, multiplier = polish(p, state, 1, reach, tolerance)
@@ -46,17 +42,17 @@ def compliant_orbit(p, guess, reach, *, tolerance=POLISH_TOLERANCE, asymmetry=SY
 PHASE = 0.75 * np.pi
 REACH = 0.05  # largest distance of the state of an orbit from the guess
 SHORTEST = 2.0**-12  # shortest step between two cells, divided by the distance of the cells
-# Orbits end at a fold if by extrapolation it is within NEAR * SHORTEST columns of the last orbit.
+# The end of a row of orbits is a fold if extrapolation puts a fold within NEAR * SHORTEST columns.
 NEAR = 4
 
 
 class QuietOrbits(NamedTuple):
     """Quiet orbits on a grid. Arrays (rows, columns) are NaN in cells without an orbit.
 
-    multiplier: Dominant eigenvalue of the map of half a cycle. Its square is a Floquet multiplier.
+    multiplier: Dominant eigenvalue of the map "integrate half a cycle, then change the sign". Its
+        square is a Floquet multiplier.
     displacement, harmonic: max |Z1|, and the amplitude of the first harmonic of Z1.
-    end: Columns at which the orbits of each row begin and end, shape (rows, 2). The number 2.5
-        means half-way between the columns 2 and 3.
+    end: Columns (may be fractions) at which the orbits of each row begin and end, shape (rows, 2).
     end_event: What ends the orbits there: map_ends (edge of the grid), fold, contacts_change,
         not_converged, or no_orbit in a row without orbits.
     """
@@ -132,8 +128,8 @@ def _row_ends(grid, row):
 
 
 def _end(followed):
-    # Earlier, `spread` failed to reach the next cell, so the grid has no orbit there. If following
-    # succeeds now, it is because `spread` has found an orbit behind, from which to extrapolate.
+    # `spread` has not reached the next cell, so the row ends in this cell. It does so even if now
+    # following arrives, because it can extrapolate from an orbit that `spread` found later.
     if followed.arrived:
         return 0.0, "not_converged"
     before, fraction = followed.values
@@ -149,9 +145,10 @@ def _end(followed):
 # harmonic of Z2 replaces d0 in this rule. The harmonic is 8 d0/pi^2 if the primary mass rests and
 # the loose mass flies to and fro at constant speed.
 FIRST_HARMONIC_RATIO = np.pi**2 / 8
-# Let q be the `impulse` of a `Flight` with e = 1, without damping and spring. At q = IMPULSE, |Z1|
-# is equally large at an impact and at the next turning point, which comes at the phase TURN after
-# the impact. q and phi = TURN solve q - 1 = cos(phi) - q + 2 q phi/pi and sin(phi) = 2 q/pi.
+# An impact changes Z1' by 4 q f/(pi W), where q is the `impulse` of a `Flight`. For rigid elastic
+# walls and a machine without damping and spring, max |Z1| is smallest at q = IMPULSE. Then |Z1| is
+# equally large at an impact and at the next turning point, and W T differs by TURN between them.
+# q and phi = TURN solve q - 1 = cos(phi) - q + 2 q phi/pi and sin(phi) = 2 q/pi.
 IMPULSE, TURN = 1.1382168528663819, 0.8104702831754177
 # CRITERIA: quantities of Z1. An optimum clearance minimises one of these quantities.
 CRITERIA = ("displacement", "first_harmonic")
@@ -173,10 +170,11 @@ def elastic_ratios(flight) -> tuple[float, float]:
 def least_harmonic_ratio(flight) -> float:
     """Return rm W^2 d0/f at which the first harmonic of Z1 in a `Flight` is smallest.
 
-    An impact has the impulse q and comes at the phase u - n after the maximum of the forcing. Here
-    sin(u) = l q, l is `loss`, and n is `forced_lag` + `setback`. The first harmonic of forcing and
-    impacts together is 1 - c q exp(i (n - u)) with c = 8/pi^2. It is smallest if
-    tan(2 u) = 2 l cos(n)/(c - 2 l sin(n)).
+    At rigid walls an impact with the impulse q comes at the phase u. Here sin(u) = l q, and l is
+    `loss`. If contacts take time, the impact comes earlier by `setback`. The forcing is largest at
+    the phase `forced_lag`. Let n be `forced_lag` + `setback`. The first harmonic of Z1 is that of
+    the force of forcing and impacts, f (1 - c q exp(i (n - u))) with c = 8/pi^2, times a constant.
+    It is smallest if tan(2 u) = 2 l cos(n)/(c - 2 l sin(n)).
     """
     factor = 8 / np.pi**2
     loss = flight.loss

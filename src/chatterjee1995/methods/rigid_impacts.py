@@ -1,7 +1,4 @@
-"""Rigid impacts, the limit of (20) to (25) for infinite r1, and orbits with rigid impacts.
-
-Corrected ("mended") rigid walls imitate compliant walls (`docs/explanation/methods.md`).
-"""
+"""Rigid impacts, the limit of (20) to (25) for infinite r1, and orbits with rigid impacts."""
 
 import math
 from typing import NamedTuple
@@ -107,14 +104,19 @@ class RigidOrbit(NamedTuple):
 def rigid_orbit(oscillator, damper, frequency, guess, reach):
     """Return the `RigidOrbit` near the state `guess`, or None, and a status.
 
-    The status is "found"; "not_followed" if Newton's method fails; "other_contacts" if there are
-    not two symmetric impacts; "chatter" if there are MOST_IMPACTS impacts in a cycle.
+    The state of the orbit differs from the guess by less than `reach`. The status is "found";
+    "not_followed" if Newton's method fails; "other_contacts" if there are not two symmetric
+    impacts; "chatter" if there are MOST_IMPACTS impacts in a cycle.
     """
     return _solve(pack(oscillator, damper, frequency), damper.restitution, guess, reach)
 
 
 def mended_orbit(oscillator, damper, frequency, orbit, reach):
-    """Return the `RigidOrbit` with walls corrected to imitate compliant walls, and a status."""
+    """Return the `RigidOrbit` between corrected walls, or None, and a status.
+
+    Corrected walls imitate compliant walls (`docs/explanation/methods.md`). `orbit` is the orbit
+    between uncorrected walls. Its state and that of the result differ by less than `reach`.
+    """
     e, h, v, before = damper.restitution, oscillator.damping, orbit.speed, orbit.acceleration
     reduced = damper.mass_ratio / (1 + damper.mass_ratio)
     z, natural = damping_ratio(e), damper.contact_frequency

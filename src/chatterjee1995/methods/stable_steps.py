@@ -41,15 +41,12 @@ ACCURACIES = (0.01, 0.1)  # allowed relative error of max |Z1| in each cycle
 # An orbit is followed in steps that change r1 by at most a factor FACTOR, and the state by REACH.
 FACTOR, REACH = 10.0**0.0625, 0.2
 EXACT = 1e-13  # tolerance of the exact orbits, with which runs are compared
-CONFIRMED = 4  # `stable_step` is NaN unless this number of the smallest steps are all accurate
+CONFIRMED = 4  # number of smallest steps that must all be accurate, or `stable_step` is NaN
 STIFF = 1e3  # least r1 in the fit of `step_slope`; for larger r1 contacts are short
 
 
 def orbits_over_stiffness(oscillator, damper, frequency, stiffnesses) -> list:
-    """Return the quiet orbit (or None) at each stiffness, followed from the damper's own stiffness.
-
-    For the first orbit one start is tried. Raise ArithmeticError if it leads to no quiet motion.
-    """
+    """Return the quiet orbit at each stiffness, followed from that of `damper`, or None."""
     p = pack(oscillator, damper, frequency)
     start = np.array([[0.0, 0.0, 0.0, -2 * p[CLEARANCE] * p[FREQUENCY] / math.pi]])
     record = ensemble.settle(p[None], start, Settling(), from_strobe=True)[0]
@@ -102,8 +99,8 @@ def _slope(stiffnesses, steps):
 def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, most_steps, periods):
     """Return a dataset: the largest steps at which methods with equal steps are accurate.
 
-    `scaled_steps` are the tested steps, times the natural frequency of a contact. Steps that need
-    more than `most_steps` in a cycle are left out. A test takes `periods` cycles.
+    `scaled_steps` are the tested steps, times the natural frequency of a contact. A step is not
+    tested if a cycle has more than `most_steps` such steps. A test takes `periods` cycles.
     """
     stiffnesses = read_increasing(UNITLESS, "stiffnesses", stiffnesses, **STIFFNESS_RANGE)
     scaled = read_increasing(UNITLESS, "scaled_steps", scaled_steps, above=0)

@@ -25,7 +25,10 @@ longest_wait | ball | | | longest time to the first collision, cycles
 def collisions(
     oscillator, damper, frequency, *, starts=2000, radius, seed=1995, periods=2000, tolerance=1e-9
 ):
-    """Return a dataset of first collisions, for starts in the whole ball and within the gap."""
+    """Return a dataset: shares of starts that lead to a collision within `periods` cycles.
+
+    `starts` starts lie in a ball of states, and as many in the part of the ball between the walls.
+    """
     p = pack(oscillator, damper, frequency)
     shares = np.empty((2, 3))
     for row, within_gap in enumerate((False, True)):

@@ -1,7 +1,7 @@
 """Map of the contact model over restitution and load, and the loads of simulated motions.
 
-The load is G = g/(wn v0). g is the acceleration Z2'' towards the wall that all forces except the
-contact force cause, wn the natural frequency of the contact, and v0 the approach speed.
+The load is G = g/(wn v0). g is the acceleration Z2'' without the contact force, positive towards
+the wall, wn the natural frequency of the contact, and v0 the approach speed.
 """
 
 from dataclasses import replace
@@ -56,9 +56,10 @@ def contact_model(
     seed=1995,
     settling,
 ):
-    """Return a dataset: contacts by restitution and load, and loads in simulated motions.
+    """Return a dataset: a map of contacts over `restitutions` and `loads`, and loads in motions.
 
-    The simulated motions have random starts at each frequency and each restitution in `used`.
+    For each restitution in `used`, motions start at random at each of `frequencies`. The loads are
+    those of contacts in `periods` cycles of the smallest settled motion and of the largest motion.
     """
     used, frequencies = np.array(used, float), np.array(frequencies, float)
     data = contact_map(restitutions, loads) | unloaded_table(used)
@@ -117,7 +118,8 @@ def unloaded_table(restitutions):
 def extreme_motions(oscillator, damper, frequency, starts, seed, settling):
     """Run motions from random starts. Return the smallest settled motion, and the largest motion.
 
-    Only motions with contacts count. If there is no such motion, return None in its place.
+    Only motions with contacts count. The largest motion need not have settled. If none has settled,
+    the first result is None. If no motion has contacts, both results are None.
     """
     p = pack(oscillator, damper, frequency)
     states = random_states(starts, damper.clearance, damper, seed)

@@ -43,9 +43,8 @@ SAME = 1e-4  # largest asymmetry of a symmetric orbit, divided by the clearance
 # The search for a minimum changes the ratio by the fraction STEP, at most MOST_STEPS times. Then it
 # locates the minimum, with an error of the ratio up to PRECISION.
 STEP, MOST_STEPS, PRECISION = 0.02, 40, 1e-8
-# Near a smooth minimum the displacement rises with the square of the distance from the minimum,
-# near a kink linearly. A minimum counts as a kink if the rise at the distance CLOSE/2 exceeds KINK
-# times the rise at the distance CLOSE.
+# A minimum is a kink if the rise of the displacement at the distance CLOSE/2 exceeds KINK times the
+# rise at the distance CLOSE. The ratio of both rises is 1/4 at a smooth minimum, and 1/2 at a kink.
 CLOSE, KINK = 1e-3, 0.36
 ABSENT = 1e3  # displacement that the search assumes where no orbit exists
 IMPULSES = 400  # number of impulses for which the theory of straight flight is evaluated
@@ -107,10 +106,7 @@ class QuietMotion:
         self._states /= np.array([[frequency**2, frequency] * 2]).T / self._forcing
 
     def at(self, ratio):
-        """Return max |Z1| and the first harmonic of Z1, both in units of f/W^2, and |multiplier|.
-
-        If there is no orbit at this ratio, the results are infinity, infinity and NaN.
-        """
+        """Return max |Z1| and first harmonic of Z1, both in units of f/W^2, and |multiplier|."""
         if ratio not in self._known:
             self._known[ratio] = self._orbit(ratio)
         return self._known[ratio]
@@ -132,8 +128,8 @@ class QuietMotion:
     def least(self, criterion, guess):
         """Return the ratio of a minimum of `at(ratio)[criterion]` near `guess`, and its kind.
 
-        The kind is "smooth" or "kink"; "jump" if an orbit ends beside the minimum; "edge" if the
-        search ends before a minimum; "not_found" if there is no orbit at `guess`.
+        The kind is "smooth" or "kink"; "jump" if the orbits end within CLOSE of the minimum; "edge"
+        if MOST_STEPS steps do not reach a minimum; "not_found" if there is no orbit at `guess`.
         """
         middle, lower, upper = guess, guess * (1 - STEP), guess * (1 + STEP)
 

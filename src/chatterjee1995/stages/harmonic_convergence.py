@@ -40,9 +40,10 @@ decay_predicted | error_measure | | | predicted power of 1/N, or rate per harmon
     """
 )
 
-# MEASURES: errors of max |Z1|, of the harmonics of Z1 up to the highest harmonic N (retained) and
-# beyond N (omitted), and of a Floquet multiplier. Predictions: an error decreases as N^-n, with n
-# from ELASTIC if e = 1 and from INELASTIC if e < 1. Without a damper an error decreases as
+# MEASURES: four errors of a balance with the highest harmonic N. "maximum": error of max |Z1|.
+# "retained": error of Z1 in the harmonics up to N. "omitted": size of Z1 in the harmonics beyond N.
+# "multiplier": largest error of a Floquet multiplier. Each error should decrease as N^-n, with n
+# from ELASTIC if e = 1 and from INELASTIC if e < 1. Without a damper it should decrease as
 # exp(-n W D N), with n from ANALYTIC. D is `singularity_distance`.
 MEASURES = ("maximum", "retained", "omitted", "multiplier")
 ELASTIC = (4.0, 5.0, 3.5, 4.0)
@@ -60,9 +61,9 @@ STARTS, LARGE, LAST_CHANGE, CLOSE = 12, 30.0, 1e-6, 0.95
 def asymptotic_harmonic(damper, frequency) -> float:
     """Return the harmonic above which the predicted powers of 1/N can hold; 1 without a damper.
 
-    Harmonics above the result have periods shorter than a contact (appendix B). With a dashpot c,
-    the contact force jumps by c Z2', and its slope by r1 Z2'. The predictions rest on the jump of
-    the force, which outweighs the other jump in harmonics above r1/(c W) only.
+    The result is the larger of two bounds. Harmonics above the first have periods shorter than a
+    contact (appendix B). The second, r1/(c W), is for walls with a dashpot c. In harmonics above it
+    the jump c Z2' of the contact force outweighs the jump r1 Z2' of its slope, as predictions need.
     """
     if damper is None:
         return 1.0
@@ -147,10 +148,10 @@ def ladder(highest) -> np.ndarray:
 
 
 def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
-    """Return a dataset of errors of harmonic balance for a symmetric motion, by highest harmonic.
+    """Return a dataset of errors of harmonic balance against a symmetric exact orbit.
 
-    Newton's method starts from the last converged solution. For a highest harmonic in `cold` it
-    starts once more, from the solution with one harmonic.
+    Each of `harmonics` is the highest harmonic of a balance. Newton's method starts from the last
+    balance that converged. For those in `cold` it also starts from the solution with one harmonic.
     """
     harmonics = np.asarray(harmonics, int)
     balances = [Balance(oscillator, damper, frequency, int(highest)) for highest in harmonics]

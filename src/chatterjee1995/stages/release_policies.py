@@ -46,8 +46,9 @@ POLICIES = ["settled", "hold", "phase", "state"]
 # Policies choose among these numbers of cycles with the damper on. Successive ratios are about 1.6.
 HOLDS = (1, 2, 3, 5, 8, 13, 21, 34)
 QUANTILES = [0.5, 0.95]  # quantiles of the cycles until the goal
-# A run with the damper on, for a number of `cycles`. The first strobe after the damper is switched
-# off comes `ahead` cycles later. `state` holds Z1 and Z1' at this strobe.
+# A run with the damper on, for a number of `cycles`. `released` is false if a limit of cycles ended
+# the run, and not a rule. The damper is then switched off. The next strobe comes `ahead` cycles
+# later, and `state` holds Z1 and Z1' at this strobe.
 HELD = np.dtype(
     [("released", "?"), ("cycles", "f8"), ("impacts", "i8"), ("state", "f8", 2), ("ahead", "f8")]
 )
@@ -70,7 +71,8 @@ def release_policies(
 ):
     """Return a dataset that compares release policies for each damper and frequency.
 
-    Each policy has `trials` trials. The grid of a release set has `cells`^2 coarse cells.
+    Each policy has `trials` trials. The grid of a release set has `cells`^2 cells. At the edge of
+    the set they are divided into smaller cells.
     """
     shape = len(dampers), len(frequencies), len(POLICIES)
     data = {
@@ -137,8 +139,7 @@ class Trials(NamedTuple):
         reached, running = np.zeros(count, bool), np.arange(count)
         rules = np.repeat(np.array(rules, RULE), trials)
         while len(running):
-            # Random numbers for each trial: they choose the phase of switching on, the place of the
-            # loose mass, the phase of the release, and the state of the free motion at the start.
+            # Four random numbers for each trial: three for `hold_many`, one for the start.
             draws = generator.random((trials, 4))[running % trials]
             first = np.searchsorted(owner, place[running])
             number = np.searchsorted(owner, place[running], side="right") - first
@@ -159,7 +160,7 @@ class Trials(NamedTuple):
         return list(map(Outcome, *(column.reshape(-1, trials) for column in columns)))
 
     def hold(self, starts, draws, limits, rules):
-        """Run trials with the damper on, in several threads. Return a HELD record of each."""
+        """Call `hold_many` with these arguments in several threads. Return its HELD records."""
         held, stop = np.zeros(len(starts), HELD), np.zeros(1, bool)
         set_ = self.releases
 

@@ -58,7 +58,7 @@ release_share | damped free_motion bound | | | share of releases that lead to ea
 
 LEAD = 20  # number of cycles before the first release; then the start of a run matters no longer
 PAPER_CYCLES = 350  # cycles within which the paper's controller reaches the non-resonance branch
-CAPTURE = 0.1  # largest difference in Z1 and in Z1' between a captured run and its last orbit
+CAPTURE = 0.1  # a run is near an orbit if Z1 and Z1' differ from the orbit by at most this number
 # A release: cycles since a strobe (W T = pi/2), Z1 and Z1', and the free motion that it leads to.
 RELEASE = np.dtype(
     [("phase", "f8"), ("displacement", "f8"), ("velocity", "f8"), ("destination", "i1")]
@@ -85,9 +85,10 @@ def migration(
 ):
     """Return a dataset of `trials` runs of migration control, and of releases of the damper.
 
-    A run ends at the goal, after `periods` cycles, or after `switchings` releases. The damper stays
-    on for about `longest_hold` cycles at most. Each settled motion with the damper has `releases`
-    releases. As many take place in the first `lifetime` cycles of motions that have not settled.
+    A run ends at the goal, after `periods` cycles, or after `switchings` releases. The damper is
+    switched off at a random phase after the motion has settled, or after `longest_hold` cycles.
+    `releases` releases take place from each settled motion with the damper. As many other motions
+    have one release each, while transient and in their first `lifetime` cycles.
     """
     case = release_case(oscillator, damper, frequency, settling)
     roots = np.random.SeedSequence(seed).spawn(2)
@@ -150,10 +151,10 @@ def _release(case, state, wait, settling, stop=NEVER):
 def watch_runs(case, seeds, lifetime, settling, workers, progress):
     """Switch the damper on in the resonance motion; return the runs, and a release from each run.
 
-    A release takes place at a random time after LEAD cycles, before an orbit captures the run and
-    before `lifetime` cycles have passed. If there is no such time, the release is NaN.
+    The release takes place at a random time after LEAD cycles, while the run is transient. A run
+    that settles is transient until it is near its orbit (CAPTURE) and stays there. Any other run is
+    transient for `lifetime` cycles. If this is at most LEAD cycles, the release is NaN.
     """
-    # Random numbers: phase of switching on, place of the loose mass, strobe, wait until release.
     draws = np.array([np.random.default_rng(seed).random(4) for seed in seeds])
     motions = np.zeros(len(draws), MOTION)
     entries = np.full(len(draws), np.array((np.nan,) * 3 + (FREE_MOTION["none"],), RELEASE))
@@ -254,7 +255,11 @@ def release_scan(
     workers=1,
     progress=None,
 ):
-    """Return a dataset of the free motions after releases from settled and unsettled motions."""
+    """Return a dataset of the free motions to which releases lead, at each of `frequencies`.
+
+    `releases` releases take place from each settled motion to which `starts` random starts lead. As
+    many other motions have one release each, while transient and in their first `lifetime` cycles.
+    """
     cases = [release_case(oscillator, damper, frequency, settling) for frequency in frequencies]
     search = {"starts": starts, "radius": radius, "seed": seed, "settling": settling}
     response = frequency_response(

@@ -68,7 +68,7 @@ def study_chunk(
         damper = Damper(contact_stiffness=contact_stiffness, **values)
         return pack(oscillator, damper, frequency), damper
 
-    # The axes are sorted: if a value is out of range, an end is. Check ends before hours of work.
+    # Check the first and last values of the sorted axes, and the radius, before hours of work.
     for end in (0, -1):
         random_states(0, radius, system([end] * len(AXES))[1], seed)
     warn_if_narrow(oscillator, axes["frequency"], radius)

@@ -1,7 +1,4 @@
-"""The one-third subharmonic of the free oscillator, and its suppression by a damper.
-
-With the damper, every motion whose period is a multiple of 3 counts as a subharmonic.
-"""
+"""The one-third subharmonic of the free oscillator, and its suppression by a damper."""
 
 from typing import NamedTuple
 
@@ -48,11 +45,11 @@ def subharmonic_suppression(
     workers=1,
     progress=None,
 ):
-    """Return a dataset of motions with the damper in the range of W of the free subharmonic.
+    """Return a dataset of subharmonics with the damper, and of the free subharmonic.
 
-    If there is a free subharmonic, `frequencies` are replaced by as many frequencies that cover its
-    range and a margin on both sides. At frequencies at which it exists, half of the starts lie on
-    the free subharmonic.
+    The free subharmonic is searched for from the first to the last of `frequencies`. If it exists,
+    as many other frequencies are used instead: they cover its range, with a margin at both ends. In
+    half of the starts in this range, the damper is switched on during the free subharmonic.
     """
     if not any(getattr(oscillator, name) for name in NONLINEAR):
         raise ValueError(
@@ -154,7 +151,7 @@ def branch_ends(data, branch, grid, rows):
 
 
 class FreeSubharmonic(NamedTuple):
-    """The free subharmonic: states at W T = pi/2, and frequencies of its ends (NaN if absent)."""
+    """The free subharmonic: states at W T = pi/2 for rows of `parameters`, and its range of W."""
 
     parameters: np.ndarray
     states: np.ndarray
@@ -176,7 +173,7 @@ class FreeSubharmonic(NamedTuple):
 def free_subharmonic(
     oscillator, first, last, *, starts=96, radius=None, seed=1995, settling, workers=1
 ) -> FreeSubharmonic:
-    """Return the branch of free symmetric motions of period 3 on which most motions are found."""
+    """Return the free subharmonic that is found most often for W from `first` to `last`."""
     frequencies = np.linspace(first, last, SEARCHED)
     parameters = np.array([pack(oscillator, None, value) for value in frequencies])
     systems = [(None, value) for value in frequencies]

@@ -22,8 +22,8 @@ import psutil
 # Collect garbage rarely: objects of imported modules stay in use, and a job makes few others.
 gc.set_threshold(10_000)
 
-# A job checks every LOOK seconds that Snakemake is alive, and ends if it is not. A new run of
-# Snakemake takes longer than LOOK to start its first job. By then no job of an old run is left.
+# A job checks every LOOK seconds that Snakemake is alive, and ends if it is not. In LOOK seconds
+# Snakemake cannot start again and begin a new job, so jobs of an old and a new run never overlap.
 LOOK = 0.5
 
 # Key of a parameter such as {"linspace": [0.6, 2.6, 41]} -> function that makes its value.

@@ -74,7 +74,6 @@ def run_fixed(method, p, start, t, steps, largest):
     h = 2.0 * math.pi / p[FREQUENCY] / steps
     y = (start[0], start[1], start[2], start[3])
     largest[:] = np.nan
-    # The forcing is the same in each cycle. Computing it in each cycle would double the run time.
     drives = np.empty((steps, 4))
     for i in range(steps):
         drives[i, 0], drives[i, 1], drives[i, 2], drives[i, 3] = forcing(p, t + i * h, h)

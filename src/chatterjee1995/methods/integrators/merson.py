@@ -13,9 +13,8 @@ from impact_damper.model.packed import CLEARANCE, FREQUENCY
 # Floating-point operations of a step: five evaluations of the rate, and their combinations.
 STEP_OPERATIONS = 366
 # A run fails if it diverges, or if it would exceed one of these limits.
-# SHORTEST: shortest step. MOST_STEPS: largest number of steps in a call of `advance_merson`.
-# MOST_ENDS, MOST_FLIGHT_ENDS: largest number of steps in a forcing cycle and in `flight`.
-SHORTEST = 1e-12
+SHORTEST = 1e-12  # shortest step
+# Largest numbers of steps: in a call of `advance_merson`, in a forcing cycle, and in `flight`.
 MOST_STEPS, MOST_ENDS, MOST_FLIGHT_ENDS = 10**6, 400_000, 10**5
 FIRST = 1e-3  # length of the first step, divided by the forcing period or, in `flight`, by `end`
 

@@ -97,10 +97,10 @@ class SciPy(Integrator):
 
 
 # `operations` is the cost of the method itself for each evaluation of the rate. In a sum of states,
-# a term costs 4 * 2 operations: a product and an addition for each of 4 components. DOP853 adds
-# about 6 terms for the state of the next evaluation, and on average 4 for the end of the step and
-# for its error. LSODA adds 21 terms, and solves 4 linear equations with 2 * 4^2 operations.
-# `factorising` is the cost of an LU factorisation: 2/3 * 4^3. Only LSODA needs LU factorisations.
+# a term costs 4 * 2 operations: a product and an addition for each of 4 components. DOP853 sums
+# about 6 terms to get the state at which it evaluates the rate. To get the end and the error of a
+# step it sums 4 terms for each evaluation in the step. LSODA sums 21 terms, and solves 4 linear
+# equations with 2 * 4^2 operations. `factorising` is the cost of its LU factorisation: 2/3 * 4^3.
 INTEGRATORS = (
     SciPy("DOP853", 4, operations=4 * 2 * (6 + 4)),
     SciPy("LSODA", 5, operations=4 * 2 * 21 + 2 * 4**2, factorising=2 * 4**3 // 3),

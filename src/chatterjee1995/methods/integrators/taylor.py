@@ -20,7 +20,7 @@ from impact_damper.kernel.single import (
 from impact_damper.model.packed import CLEARANCE, FREQUENCY
 from impact_damper.motions import traces
 
-# Kinds of steps: FLIGHT in flight, MEETING in flight until a contact begins, CONTACT in contact.
+# Kinds of steps. CONTACT: in contact. MEETING: last step of a flight. FLIGHT: any other step.
 FLIGHT, MEETING, CONTACT = range(3)
 ORDERS = FLIGHT_ORDER, CONTACT_ORDER
 # A step is stored as a row: its beginning, its length, the wall in contact before it, and the wall
@@ -32,7 +32,10 @@ PARTS = 8  # number of parts of a step; `turning_points` finds at most one zero 
 
 @kernel
 def take_steps(steps, p, y, side, t, end, tolerance, flight_order, contact_order, rows):
-    """Integrate y to `end`, or until `rows` is full. Return step count, time and wall pressed."""
+    """Integrate y from t to `end`, or until `rows` is full. Write each step to one of `rows`.
+
+    `steps` is from `steps_of`. Return the number of steps, the last time and the last wall pressed.
+    """
     work = aligned(steps[3])
     a, count = pointer(work), 0
     write_trajectory(p, y, side, tolerance, a)
