@@ -18,7 +18,7 @@ class Exponents(NamedTuple):
     """The Floquet exponents, 2 or with a damper 4, in the order of rising real parts.
 
     The status is "found"; "not_converged" if the search for eigenvalues fails; "not_separated" if
-    the search finds more or fewer exponents than 2 or 4. In the last two cases all values are NaN.
+    the search finds too few or too many exponents. In the last two cases all values are NaN.
     """
 
     values: np.ndarray

@@ -84,7 +84,7 @@ class Integrator:
     def touches(self, p, state, levels, resolution):
         """Return for each clearance in `levels` whether the integrator finds a contact.
 
-        By default return None. A contact is then found if `flight` returns a larger |Z2|.
+        By default return None. A contact is then found if |Z2| from `flight` exceeds the clearance.
         """
 
     def largest_displacements(self, p, start, begin, periods, steps) -> np.ndarray:

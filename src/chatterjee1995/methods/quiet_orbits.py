@@ -42,7 +42,8 @@ def compliant_orbit(p, guess, reach, *, tolerance=POLISH_TOLERANCE, asymmetry=SY
 PHASE = 0.75 * np.pi
 REACH = 0.05  # largest distance of the state of an orbit from the guess
 SHORTEST = 2.0**-12  # shortest step between two cells, divided by the distance of the cells
-# The end of a row of orbits is a fold if extrapolation puts a fold within NEAR * SHORTEST columns.
+# The end of a row of orbits is reported as a fold if extrapolation from the last two orbits finds a
+# fold less than NEAR * SHORTEST columns beyond the last orbit.
 NEAR = 4
 
 
@@ -145,13 +146,12 @@ def _end(followed):
 # harmonic of Z2 replaces d0 in this rule. The harmonic is 8 d0/pi^2 if the primary mass rests and
 # the loose mass flies to and fro at constant speed.
 FIRST_HARMONIC_RATIO = np.pi**2 / 8
-# An impact changes Z1' by 4 q f/(pi W), where q is the `impulse` of a `Flight`. For rigid elastic
-# walls and a machine without damping and spring, max |Z1| is smallest at q = IMPULSE. Then |Z1| is
-# equally large at an impact and at the next turning point, and W T differs by TURN between them.
-# q and phi = TURN solve q - 1 = cos(phi) - q + 2 q phi/pi and sin(phi) = 2 q/pi.
+# An impact changes Z1' by 4 q f/(pi W). q is the `impulse` of a `Flight`, f the forcing amplitude.
+# For rigid elastic walls and a machine without damping and spring, max |Z1| is smallest if q is
+# IMPULSE. Then |Z1| is equally large at an impact and at the next turning point. TURN is the phase
+# W T between them. q and phi = TURN solve q - 1 = cos(phi) - q + 2 q phi/pi, sin(phi) = 2 q/pi.
 IMPULSE, TURN = 1.1382168528663819, 0.8104702831754177
-# CRITERIA: quantities of Z1. An optimum clearance minimises one of these quantities.
-CRITERIA = ("displacement", "first_harmonic")
+CRITERIA = ("displacement", "first_harmonic")  # quantities of Z1; an optimum minimises one
 RULES = ("balance", "gap_harmonic", "straight_flight", "elastic", "flight")
 
 
@@ -172,9 +172,10 @@ def least_harmonic_ratio(flight) -> float:
 
     At rigid walls an impact with the impulse q comes at the phase u. Here sin(u) = l q, and l is
     `loss`. If contacts take time, the impact comes earlier by `setback`. The forcing is largest at
-    the phase `forced_lag`. Let n be `forced_lag` + `setback`. The first harmonic of Z1 is that of
-    the force of forcing and impacts, f (1 - c q exp(i (n - u))) with c = 8/pi^2, times a constant.
-    It is smallest if tan(2 u) = 2 l cos(n)/(c - 2 l sin(n)).
+    the phase `forced_lag`. Let n be `forced_lag` + `setback`. The force of forcing and impacts has
+    the first harmonic f (1 - c q exp(i (n - u))) with c = 8/pi^2 and the forcing amplitude f. The
+    first harmonic of Z1 is proportional to it. Both are smallest if
+    tan(2 u) = 2 l cos(n)/(c - 2 l sin(n)).
     """
     factor = 8 / np.pi**2
     loss = flight.loss

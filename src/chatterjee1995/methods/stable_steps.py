@@ -41,12 +41,12 @@ ACCURACIES = (0.01, 0.1)  # allowed relative error of max |Z1| in each cycle
 # An orbit is followed in steps that change r1 by at most a factor FACTOR, and the state by REACH.
 FACTOR, REACH = 10.0**0.0625, 0.2
 EXACT = 1e-13  # tolerance of the exact orbits, with which runs are compared
-CONFIRMED = 4  # number of smallest steps that must all be accurate, or `stable_step` is NaN
+CONFIRMED = 4  # if at least this number of the smallest steps are accurate, `stable_step` is given
 STIFF = 1e3  # least r1 in the fit of `step_slope`; for larger r1 contacts are short
 
 
 def orbits_over_stiffness(oscillator, damper, frequency, stiffnesses) -> list:
-    """Return the quiet orbit at each stiffness, followed from that of `damper`, or None."""
+    """Return the quiet orbit at each stiffness, or None, followed from the orbit with `damper`."""
     p = pack(oscillator, damper, frequency)
     start = np.array([[0.0, 0.0, 0.0, -2 * p[CLEARANCE] * p[FREQUENCY] / math.pi]])
     record = ensemble.settle(p[None], start, Settling(), from_strobe=True)[0]

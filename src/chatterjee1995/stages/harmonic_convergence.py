@@ -63,7 +63,7 @@ def asymptotic_harmonic(damper, frequency) -> float:
 
     The result is the larger of two bounds. Harmonics above the first have periods shorter than a
     contact (appendix B). The second, r1/(c W), is for walls with a dashpot c. In harmonics above it
-    the jump c Z2' of the contact force outweighs the jump r1 Z2' of its slope, as predictions need.
+    the jump c Z2' of the contact force outweighs the jump r1 Z2' of its slope.
     """
     if damper is None:
         return 1.0
@@ -150,8 +150,9 @@ def ladder(highest) -> np.ndarray:
 def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
     """Return a dataset of errors of harmonic balance against a symmetric exact orbit.
 
-    Each of `harmonics` is the highest harmonic of a balance. Newton's method starts from the last
-    balance that converged. For those in `cold` it also starts from the solution with one harmonic.
+    Each of `harmonics` is the highest harmonic of a balance. Newton's method starts from the
+    solution of the last balance that converged. For each highest harmonic in `cold`, it starts a
+    second time, from the solution with one harmonic.
     """
     harmonics = np.asarray(harmonics, int)
     balances = [Balance(oscillator, damper, frequency, int(highest)) for highest in harmonics]

@@ -43,8 +43,7 @@ policy_phase | case frequency policy | angle | | phase Omega T of the release th
 )
 
 POLICIES = ["settled", "hold", "phase", "state"]
-# Policies choose among these numbers of cycles with the damper on. Successive ratios are about 1.6.
-HOLDS = (1, 2, 3, 5, 8, 13, 21, 34)
+HOLDS = (1, 2, 3, 5, 8, 13, 21, 34)  # numbers of cycles for which policies leave the damper on
 QUANTILES = [0.5, 0.95]  # quantiles of the cycles until the goal
 # A run with the damper on, for a number of `cycles`. `released` is false if a limit of cycles ended
 # the run, and not a rule. The damper is then switched off. The next strobe comes `ahead` cycles

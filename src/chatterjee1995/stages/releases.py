@@ -87,8 +87,8 @@ def migration(
 
     A run ends at the goal, after `periods` cycles, or after `switchings` releases. The damper is
     switched off at a random phase after the motion has settled, or after `longest_hold` cycles.
-    `releases` releases take place from each settled motion with the damper. As many other motions
-    have one release each, while transient and in their first `lifetime` cycles.
+    `releases` releases take place from each settled motion with the damper. In `releases` other
+    motions, one release takes place in the transient, within the first `lifetime` cycles.
     """
     case = release_case(oscillator, damper, frequency, settling)
     roots = np.random.SeedSequence(seed).spawn(2)
@@ -153,7 +153,7 @@ def watch_runs(case, seeds, lifetime, settling, workers, progress):
 
     The release takes place at a random time after LEAD cycles, while the run is transient. A run
     that settles is transient until it is near its orbit (CAPTURE) and stays there. Any other run is
-    transient for `lifetime` cycles. If this is at most LEAD cycles, the release is NaN.
+    transient for `lifetime` cycles. If the transient is too short, the release is NaN.
     """
     draws = np.array([np.random.default_rng(seed).random(4) for seed in seeds])
     motions = np.zeros(len(draws), MOTION)
@@ -257,8 +257,8 @@ def release_scan(
 ):
     """Return a dataset of the free motions to which releases lead, at each of `frequencies`.
 
-    `releases` releases take place from each settled motion to which `starts` random starts lead. As
-    many other motions have one release each, while transient and in their first `lifetime` cycles.
+    `starts` random starts lead to settled motions. From each of these, `releases` releases take
+    place. In `releases` other motions, one takes place in the transient, within `lifetime` cycles.
     """
     cases = [release_case(oscillator, damper, frequency, settling) for frequency in frequencies]
     search = {"starts": starts, "radius": radius, "seed": seed, "settling": settling}

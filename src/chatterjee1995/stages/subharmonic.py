@@ -173,7 +173,7 @@ class FreeSubharmonic(NamedTuple):
 def free_subharmonic(
     oscillator, first, last, *, starts=96, radius=None, seed=1995, settling, workers=1
 ) -> FreeSubharmonic:
-    """Return the free subharmonic that is found most often for W from `first` to `last`."""
+    """Return the branch of the free subharmonic that is found most often from `first` to `last`."""
     frequencies = np.linspace(first, last, SEARCHED)
     parameters = np.array([pack(oscillator, None, value) for value in frequencies])
     systems = [(None, value) for value in frequencies]

@@ -10,8 +10,7 @@ from impact_damper.kernel.compiling import kernel
 from impact_damper.kernel.single import side_of
 from impact_damper.model.packed import CLEARANCE, FREQUENCY
 
-# Floating-point operations of a step: five evaluations of the rate, and their combinations.
-STEP_OPERATIONS = 366
+STEP_OPERATIONS = 366  # floating-point operations of a step, with five evaluations of the rate
 # A run fails if it diverges, or if it would exceed one of these limits.
 SHORTEST = 1e-12  # shortest step
 # Largest numbers of steps: in a call of `advance_merson`, in a forcing cycle, and in `flight`.
