@@ -14,7 +14,7 @@ AWAY = 0.1  # the rise of max |Z1| is read at (1 - AWAY) and (1 + AWAY) times th
 
 
 def excess(datasets):
-    """Return numbers that test claim 9: the optimum d0 is slightly above d0 by equation (7)."""
+    """Return numbers that test claim 9: the optimum d0 is slightly more than (7) predicts."""
     groups = _sweeps(datasets, "damping", restitution=1)
     members = [sweep for group in groups.values() for sweep in group]
     over = [float(sweep.optimum_clearance / sweep.analytical_optimum) - 1 for sweep in members]

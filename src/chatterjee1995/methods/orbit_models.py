@@ -164,7 +164,11 @@ def newton_work(balance):
 
 
 def rigid_impacts(oscillator, damper, frequency, start):
-    """Return the models "rigid" and "rigid_mended" (corrected walls) of an orbit near `start`."""
+    """Return two models of an orbit near `start`, as a dict.
+
+    In "rigid" the walls are rigid. In "rigid_mended" restitution and clearance of the rigid walls
+    are corrected, so that the walls imitate compliant ones (docs/explanation/methods.md).
+    """
     if damper is None:
         return dict.fromkeys(("rigid", "rigid_mended"), without("not_applicable"))
     system = oscillator, damper, frequency

@@ -81,7 +81,7 @@ class DesignRules(system.WithOscillator):
 
 
 def axis(name):
-    """Return the type of a key that gives a grid axis: a number, or a range with a key `points`."""
+    """Return the type for the key `name`, whose value is one number or an even range of numbers."""
     several = system.range_of(system.PARAMETERS[name], points=True)
     return number_or_range(
         several, f"{system.MEANINGS[name]}, one value or an even range", **system.BOUNDS[name]

@@ -1,4 +1,4 @@
-"""Sections on responses: curves over frequency, single motions, and starts that collide."""
+"""Sections on responses: curves over frequency, steady motions, and shares of collisions."""
 
 from chatterjee1995.sections import system
 from chatterjee1995.sections.records import Kind, Table, stage

@@ -66,7 +66,7 @@ def tables_of(chapter) -> list:
 
 
 def figure_values(config, name) -> dict:
-    """Return the parameters with which the job of a chapter draws a figure."""
+    """Return what is needed to draw a figure: the function, its data and the caption."""
     figure = config.figures[name]
     kind = KINDS[figure.kind]
     cases = {each: _case(config, section_of(kind.name), each) for each in figure.data}
@@ -80,7 +80,7 @@ def figure_values(config, name) -> dict:
 
 
 def table_values(config, name) -> dict:
-    """Return the parameters with which the job of a chapter makes a table."""
+    """Return what is needed to make a table, such as its module and its caption."""
     table = TABLES[name]
     values = {
         "module": table.source,

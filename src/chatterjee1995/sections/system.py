@@ -79,7 +79,7 @@ class Range(Section):
 
 
 def range_of(kind, *, points=False):
-    """Return a class with the keys `first` and `last`, the ends of a range, of the type `kind`.
+    """Return a class for a range of values of the type `kind`. Its keys are `first` and `last`.
 
     If `points` is true, the class also has the key `points`, the number of values in the range.
     """

@@ -40,8 +40,8 @@ rule_excess | mass_ratio restitution contact_stiffness frequency rule | | | rela
 SWEPT = ("mass_ratio", "restitution", "contact_stiffness", "frequency")
 SAMPLES = 1024  # number of values of Z1 in a cycle from which the first harmonic is computed
 SAME = 1e-4  # largest asymmetry of a symmetric orbit, divided by the clearance
-# The search for a minimum changes the ratio by the fraction STEP, at most MOST_STEPS times. Then it
-# locates the minimum, with an error of the ratio up to PRECISION.
+# The search for the least displacement changes the ratio rm W^2 d0/f by the fraction STEP, at most
+# MOST_STEPS times. Then it locates the minimum, with an error of the ratio up to PRECISION.
 STEP, MOST_STEPS, PRECISION = 0.02, 40, 1e-8
 # A minimum is a kink if the rise of the displacement at the distance CLOSE/2 exceeds KINK times the
 # rise at the distance CLOSE. The ratio of both rises is 1/4 at a smooth minimum, and 1/2 at a kink.
@@ -53,7 +53,10 @@ IMPULSES = 400  # number of impulses for which the theory of straight flight is 
 def design_rules(
     oscillator, mass_ratios, restitutions, contact_stiffnesses, frequencies, *, progress=None
 ):
-    """Return a dataset: by damper and frequency the optimum clearances, and the errors of rules."""
+    """Return a dataset: the optimum clearances for each damper and frequency.
+
+    It also holds the errors of several rules for these clearances.
+    """
     given = mass_ratios, restitutions, contact_stiffnesses, frequencies
     axes = {name: np.array(values, float) for name, values in zip(SWEPT, given, strict=True)}
     shape = tuple(map(len, axes.values()))

@@ -61,9 +61,9 @@ STARTS, LARGE, LAST_CHANGE, CLOSE = 12, 30.0, 1e-6, 0.95
 def asymptotic_harmonic(damper, frequency) -> float:
     """Return the harmonic above which the predicted powers of 1/N can hold; 1 without a damper.
 
-    The result is the larger of two bounds. Harmonics above the first have periods shorter than a
-    contact (appendix B). The second, r1/(c W), is for walls with a dashpot c. In harmonics above it
-    the jump c Z2' of the contact force outweighs the jump r1 Z2' of its slope.
+    The result is the larger of two numbers. Harmonics above one of them have periods shorter than a
+    contact (appendix B). The other one, r1/(c W), is for walls with a dashpot c. In harmonics above
+    r1/(c W) the jump c Z2' of the contact force outweighs the jump r1 Z2' of its slope.
     """
     if damper is None:
         return 1.0

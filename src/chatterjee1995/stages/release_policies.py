@@ -56,7 +56,7 @@ RULE = np.dtype([("kind", "i8"), ("cycles", "f8"), ("phase", "i8")])
 
 
 class Outcome(NamedTuple):
-    """Results of trials. `cycles` are cycles until the goal, `damper` cycles with the damper on."""
+    """Results of trials. `cycles` counts cycles to the goal, `damper` those with the damper on."""
 
     reached: np.ndarray
     cycles: np.ndarray

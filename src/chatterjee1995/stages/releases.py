@@ -190,8 +190,8 @@ def _life(p, path, record, tolerance):
 def release_data(case, motions, entries, settling):
     """Return a dict of the variables on releases. The first axis is the motion with the damper.
 
-    Index 0 stands for all motions that have not settled, with the releases `entries`. The other
-    indices stand for `motions`. Releases from one of these are equally spaced over its period.
+    Index 0 stands for all motions that have not settled. `entries` are the releases from them. The
+    other indices stand for `motions`. Releases from these are equally spaced over each period.
     """
     number = len(entries)
     rows = [entries]

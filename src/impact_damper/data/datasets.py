@@ -37,7 +37,7 @@ def variable(name, data, dims=None) -> xr.Variable:
 
 
 def shown_variable(name, values):
-    """Return `values`, in the units of machines, as the registered variable `name` with a unit."""
+    """Return the variable `name` with `values`, which are in the unit for machines, such as mm."""
     found = variable(name, values)
     found.attrs["units"] = QUANTITIES[VARIABLES[name].kind].label
     return found

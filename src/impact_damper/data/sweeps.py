@@ -1,4 +1,4 @@
-"""The motions found in a sweep of a parameter, and stretches of True in a boolean array."""
+"""The motions found in a sweep of a parameter."""
 
 from typing import NamedTuple
 
@@ -35,5 +35,5 @@ def families(data) -> list[Family]:
 
 
 def runs_of_true(mask) -> np.ndarray:
-    """Return a row for each stretch of True: its first index, and the index after its last one."""
+    """Return a row for each run of True in `mask`: its first index, and its last index plus 1."""
     return np.flatnonzero(np.diff(np.asarray(mask, int), prepend=0, append=0)).reshape(-1, 2)

@@ -64,8 +64,8 @@ def _named_values(text):
     return {name: int(value) for name, value in pairs}
 
 
-# Values of the variable `basin_label` for states of the primary mass that get no orbit's number.
-# A state is `mixed` if the place of the loose mass decides which of several orbits is reached.
+# The variable `basin_label` holds the number of the orbit to which a state of the primary mass
+# leads, or one of these values. `mixed`: the place of the loose mass decides between orbits.
 BASIN_LABEL = {
     "unresolved": -1,
     "escaped": -2,

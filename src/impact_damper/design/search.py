@@ -123,7 +123,7 @@ class Curve:
         return found
 
     def choose(self) -> Range:
-        """Return the widest of the ranges with a `size` of at most ALIKE x the smallest `size`."""
+        """Return the good range (see ALIKE) with the greatest ratio of `high` to `low`."""
         ranges = self.ranges()
         best = min(each.size for each in ranges)
         good = [each for each in ranges if each.size <= ALIKE * best]

@@ -304,7 +304,7 @@ class Task:
 
     @cached_property
     def grid(self) -> np.ndarray:
-        """Evenly spaced frequencies over the band (Hz). Each resonance replaces the nearest one."""
+        """Evenly spaced frequencies (Hz). A resonance replaces the frequency nearest to it."""
         values = np.linspace(*self.band, self.effort.frequencies)
         for frequency in self.resonances:
             values[1 + np.argmin(np.abs(values[1:-1] - frequency))] = frequency

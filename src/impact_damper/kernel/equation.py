@@ -3,9 +3,9 @@
     Z1'' = (F + U W^2) cos(W T) - h Z1' - omega_l^2 Z1 - k3 Z1^3
 
 This is equation (3) of the paper with three further parameters: k3, F and U. Some functions yield
-lines of Python code, which `instances` joins into kernels: docs/explanation/series.md. In the lines
-x0, x1, ... are Taylor coefficients of Z1, q0, q1, ... of the depth in a wall, and g0, g1, ... of
-Z1'' without the wall's force. D is the coefficient of the walls' dashpot.
+lines of Python code, which `instances` joins into kernels: docs/explanation/series.md. These lines
+use Taylor coefficients number k = 0, 1, ... of three functions: xk of Z1, qk of the depth in a wall
+and gk of Z1'' without the wall's force. D is the coefficient of the walls' dashpot.
 """
 
 import math
@@ -165,8 +165,8 @@ def tangent(order, phase, constants):
 def squares(count):
     """Yield lines of code that compute u0, u1, ..., the first `count` coefficients of 3 k3 x^2.
 
-    3 k3 x^2 is the slope of the spring's nonlinear force at Z1 = x. The lines read x0, x1, ..., the
-    Taylor coefficients of Z1, and the variables that the lines of `coefficients` set.
+    3 k3 x^2 is the slope of the spring's nonlinear force at Z1 = x. The lines read the variable
+    `cubic`, which holds k3, and the Taylor coefficients x0, x1, ... of Z1.
     """
     yield "triple = 3.0 * cubic"
     yield "sextuple = 6.0 * cubic"

@@ -151,7 +151,7 @@ class Arithmetic:
         return self.builder.extract_element(pair, ir.Constant(INDEX, place))
 
     def combined(self, instruction, *values):
-        """Return the result of an LLVM instruction, such as "fadd", on numbers or pairs."""
+        """Apply an LLVM instruction, such as "fadd", to operands: numbers or pairs of numbers."""
         return self._each(partial(getattr(self.builder, instruction), flags=CONTRACT), *values)
 
     def negative(self, value):

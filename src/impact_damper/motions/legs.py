@@ -56,10 +56,10 @@ def run(p, y, ahead, strobe, tolerance, limit, stop=NEVER):
 def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, path, out):
     """Run a motion from strobe number `first` to number `last`, or until it settles or escapes.
 
-    Strobe 0 has the time `strobe` in forcing cycles, and strobe `limit` ends the whole run. `path`
-    is as in `run`. `ring` holds the last strobe states. Newton's method is tried if the motion
-    seems nearer to an orbit than `near`; each failure reduces `near`. Return the wall in contact at
-    the end, and the last value of `near`.
+    `strobe` is the time of strobe number 0, in forcing cycles. The run ends at number `limit`.
+    `path` is as in `run`. `ring` holds the last strobe states. Newton's method is tried if the
+    motion seems nearer to an orbit than `near`; each failure reduces `near`. Return the wall in
+    contact at the end, and the last value of `near`.
     """
     work = workspace()
     none = np.empty((0, 4))

@@ -68,7 +68,7 @@ class Search(NamedTuple):
     free_speed: np.ndarray
 
     def variables(self, dimension=None) -> dict:
-        """Return a dict: missed share, and fields of sizes over `dimension` (None: as scalars)."""
+        """Return dataset variables: missed share, and sizes (scalars if `dimension` is None)."""
         names = "start_displacement", "start_speed", "free_displacement", "free_speed"
         data = {
             name: ((), values[0]) if dimension is None else (dimension, values)

@@ -247,8 +247,8 @@ def match_unsettled(first, second) -> list:
 def size_ratio(one, other):
     """Return the larger max |Z1| of two motions divided by the smaller.
 
-    A motion without a period may have a small max |Z1| by chance. For two such motions the fields
-    `reach` give a second ratio, and the smaller of both ratios is returned.
+    A motion without a period may have a small max |Z1| by chance. For two such motions `reach`, the
+    largest (Z1^2 + (Z1'/W)^2)^(1/2) at strobes, also gives a ratio. The smaller one is returned.
     """
     if one["maximum_displacement"] == other["maximum_displacement"]:
         return 1.0

@@ -44,7 +44,8 @@ EARLY, RETURNS, NONLINEAR, APPROACH = (1e-2, 1e-3), 4, 0.1, 1000
 REST = 1e-9
 # Data of one motion while it runs.
 # untouched      forcing cycles since the last contact
-# near, early    distances from an orbit at which Newton's method is tried next
+# near           Newton's method is tried at distances from an orbit below this bound
+# early          a larger bound, which counts if the state moves less and less (see EARLY)
 # periods        forcing cycles in which the growth of a tangent was measured
 # batch          logarithm of the tangent's growth in the present batch, so far
 # mean, squares  mean of `batch` over complete batches; sum of squared deviations from this mean

@@ -22,9 +22,8 @@ NEWTON, LARGEST = 10, 0.5
 # A correction is the largest change of an unknown in one iteration. Newton's method has converged
 # if the residual is as small as a rounding error and one of these is true:
 # - The correction before the last one is below SURE.
-# - The last correction is below CLOSE, and d(`Orbit.defects`)/d(parameter) is up to date.
-# - The last correction is below ROUNDING and more than half of the correction before it, and
-#   d(`Orbit.defects`)/d(parameter) is up to date.
+# - d(`Orbit.defects`)/d(parameter) is up to date, and the last correction is below CLOSE. If it is
+#   more than half of the correction before it, the bound is ROUNDING instead.
 # The method fails if a correction exceeds both SURE and SHRINKING times the correction before it.
 CLOSE, ROUNDING, SURE, SHRINKING = 1e-10, 1e-4, 1e-6, 0.7
 # The derivative of `Orbit.defects` by the parameter is expensive. It is updated only if Newton's

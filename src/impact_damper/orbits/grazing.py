@@ -19,7 +19,7 @@ from impact_damper.orbits.segments import list_turns, slopes_of_ends
 # side with more contacts, points are computed at which the extremum of Z2 is LEAST, LEAST x RATIO,
 # LEAST x RATIO^2, ... up to MOST away from the wall.
 RATIO, LEAST, MOST = 10.0, 1e-13, 2e-5
-# If a step from one height to the next fails, a height between the two is tried first. This is done
+# If a step between two heights |Z2| - d0 fails, a height between them is tried first. This is done
 # at most HALVINGS times in each grazing, and HALVINGS_BETWEEN times in a row in `Passage.between`.
 HALVINGS, HALVINGS_BETWEEN = 8, 3
 # A step led to a more symmetric branch if max |`Orbit.deviation`| fell to FALLEN x its old value.
@@ -28,7 +28,7 @@ FALLEN = 0.01
 # these points the extremum of Z2 is BESIDE[0] and BESIDE[1] away from the wall.
 BESIDE = 1e-9, 2e-5
 # Newton's method fails if it must change an unknown by LARGEST or more. It has converged only if
-# the error of the height is below CLOSE x |height| + ROUNDING.
+# the height |Z2| - d0 of the extremum has an error below CLOSE x |height| + ROUNDING.
 LARGEST, CLOSE, ROUNDING = 0.5, 1e-4, 1e-14
 
 

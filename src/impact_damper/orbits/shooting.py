@@ -10,7 +10,7 @@ from impact_damper.orbits.orbit import TURN, Orbit, integrate
 
 # Newton's method stops after ITERATIONS corrections, or before a single correction of FAR or more.
 ITERATIONS, FAR = 20, 10.0
-# The first phase of an approximate orbit is changed only if the orbit's residual is below NEAR.
+# The phase at which an orbit begins is changed only if the orbit's residual is below NEAR.
 NEAR = 1e-6
 # Multiple shooting is used if a small disturbance can grow by more than this factor on an orbit.
 AMPLIFYING = 100.0
@@ -32,15 +32,15 @@ def find_orbit(p, state, periods=1, phase=STROBE) -> Orbit:
     """Find the orbit near a state at a phase W T. `Orbit.converged` tells whether this succeeded.
 
     Without contacts only Z1 and Z1' are unknown. Z2 - Z1 and Z2' - Z1', which describe the loose
-    mass alone, stay as in `state`. The first phase of a converged orbit lies in a flight.
+    mass alone, stay as in `state`. If `phase` is in a contact, the orbit found begins in a flight.
     """
     orbit = newton(shoot(p, state, periods, phase))
     if orbit.amplification > AMPLIFYING:
         chain = polish(orbit if orbit.residual < NEAR else shoot(p, state, periods, phase))
         if chain.residual < orbit.residual:
             return replace(chain, maps=orbit.maps + chain.maps)
-    # If the first phase lies in a contact, rounding errors grow and the orbit cannot converge. If
-    # its residual is below NEAR, the orbit is computed again from a first phase in a flight.
+    # If the orbit begins in a contact, rounding errors grow and Newton's method cannot converge. If
+    # the orbit's residual is below NEAR, the orbit is computed again from a phase in a flight.
     if not orbit.residual < NEAR or orbit.flight_phase() == orbit.phase:
         return orbit
     phase = orbit.flight_phase()

@@ -204,7 +204,7 @@ def legend(figure, columns) -> None:
 
 
 def save_figure(figure, path) -> None:
-    """Write `path`.pdf and `path`.png. Each file is complete or absent, with reproducible bytes."""
+    """Write `path`.pdf and `path`.png. The same figure always gives the same bytes."""
     with context():
         if figure.get_layout_engine() is not None:
             figure.get_layout_engine().execute(figure)

@@ -91,7 +91,7 @@ def resting_solutions(oscillator, damper, frequency) -> Solutions:
 
 
 class _Balance:
-    """Terms of (7) as functions of the contact angle p. Powers of cos(p) remove their poles."""
+    """Terms of (7), multiplied by powers of cos(p). The contact angle p is arccos(d0/b)."""
 
     def __init__(self, oscillator, damper, frequency):
         self.clearance = damper.clearance
@@ -103,7 +103,7 @@ class _Balance:
         self.stiffness = 2 * damper.contact_stiffness / (np.pi * self.inertia)
 
     def terms(self, angle):
-        """Return cos(p), a cos(p), f cos(t1) cos^3(p) and -f sin(t1) cos^3(p) by (7a, b)."""
+        """Return cos p, a cos p, f cos(t1) cos^3 p and -f sin(t1) cos^3 p, where p is `angle`."""
         cosine = np.cos(angle)
         scaled = self.scaled_amplitude(angle)
         force = self.inertia * (self.clearance - scaled)
@@ -112,11 +112,11 @@ class _Balance:
         return cosine, scaled, inline, self.drag * scaled * cosine**2
 
     def scaled_amplitude(self, angle):
-        """Return a cos(p) by (7c)."""
+        """Return a cos(p) by (7c), where p is the contact angle `angle`."""
         return self.clearance * (1 - self.stiffness * _excess(angle))
 
     def defect(self, angle):
-        """Return cos^6(p) G(p), with G as in `impacting_solutions`."""
+        """Return cos^6(p) G(p) for p = `angle`. `impacting_solutions` explains p and G."""
         cosine, _, inline, quadrature = self.terms(angle)
         return inline**2 + quadrature**2 - self.force**2 * cosine**6
 
@@ -136,7 +136,7 @@ class _Balance:
         )
 
     def angle_range(self):
-        """Return the range of p that contains all solutions. If it is empty, its ends are equal."""
+        """Return bounds on the contact angle p = arccos(d0/b) of all solutions of (7)."""
         # (7b) gives |a| <= f/(h W). (7a) bounds |g a^3| by the absolute values of its other terms.
         reach = self.force / self.drag
         if reach == 0:
@@ -231,7 +231,7 @@ def stability(growth) -> np.ndarray:
 
 
 def _push_slopes(loose, damper):
-    """Return the contact force's derivatives by C and conj(C). `loose` is C, as in `jacobian`."""
+    """Return the contact force's derivatives by C and conj(C). `loose` is C, Z2's amplitude."""
     size = np.abs(loose)
     contact, slope = contact_amplitude(size, damper.clearance)
     size = np.maximum(size, damper.clearance)

@@ -37,7 +37,7 @@ class Flight(NamedTuple):
 
     @property
     def forced(self):
-        """Amplitude A that x would have without impacts."""
+        """Amplitude A of x = W^2 Z1/f without impacts, where f is the forcing amplitude."""
         return 1 / np.hypot(1 - self.stiffness**2, self.damping)
 
     @property

@@ -41,9 +41,10 @@ def solved(method, p, y, span, side, tolerance, left, **options):
 
 
 def parts(method, p, start, t, end, tolerance, locate, left):
-    """Yield a result of `solve_ivp` for the whole run, or if `locate` for each flight and contact.
+    """Yield the result of `solve_ivp` for the whole run.
 
-    Each evaluation of the rate reduces `left[0]`, the number of evaluations that are still allowed.
+    If `locate` is true, yield a result for each flight and each contact instead. Each evaluation of
+    the rate reduces `left[0]`, the number of evaluations that are still allowed.
     """
     y, side = np.array(start), side_of(p, start) if locate else BY_POSITION
     status = 1

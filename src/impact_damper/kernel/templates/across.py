@@ -76,14 +76,14 @@ def find_sway(a):
 
 
 def flight_values(a):
-    """Compute Z1, SWAY and their derivatives at the time T of a flight, for `loose_mass`."""
+    """Compute Z1, SWAY (see `find_sway`) and their derivatives at the time T of a flight."""
     flight_slope(a)
     flight_curve(a)
     find_sway(a)
 
 
 def penetration_values(a):
-    """Compute Z1, SWAY, the depth in the wall, and their derivatives at the time T of a contact."""
+    """Compute Z1, the depth, SWAY (see `find_sway`) and derivatives at the time T of a contact."""
     find_sway(a)
     contact_values(a)
 

@@ -5,7 +5,7 @@ SAG = 0.13
 
 
 def loose_mass(a, i, t):
-    """Return Z2 and Z2' at the time t of a flight. Z2 - Z1 is SWAY plus a linear function of t."""
+    """Return Z2 and Z2' in flight at time t. Z2 - Z1 is linear in t, plus SWAY (`find_sway`)."""
     drift = a[Y3 + i] - a[Y1 + i]
     place = a[Z1 + i] + (a[Y2 + i] - a[Y0 + i]) + drift * t
     return place + a[SWAY + i], a[Z1_SLOPE + i] + drift + a[SWAY_SLOPE + i]
@@ -22,7 +22,7 @@ def first_guess(a, i):
 def distance_ahead(a, i, t):
     """Return the distance f of the loose mass to WALL at time t, and -f/f' and f''/f'.
 
-    Before the call the rows of Z1, SWAY and their first two derivatives must hold values at time t.
+    Z1, SWAY (see `find_sway`) and their first two derivatives must have been computed for time t.
     """
     z, w = loose_mass(a, i, t)
     closing = a[WALL + i] * w

@@ -70,9 +70,9 @@ def bracketed_step(a, i, t, f, first, bend, rate, fine):
     """Return two numbers: the next move and the next mode of a search in mode BRACKET.
 
     `f` is the value of the event function at the time t, and `fine` its rounding error. A move is a
-    change of t. One root lies between the times LOW, where f > 0, and HIGH, where f <= 0. While no
-    time with f <= 0 has been found, HIGH is FAR, and at most one root lies after LOW in the step.
-    A move that would leave the interval from LOW to HIGH is replaced by bisection.
+    change of t. f > 0 at the time LOW. HIGH is a time at which f <= 0, or the number FAR = 1e200 if
+    no such time has been found. At most one root lies between LOW and HIGH in the step. A move that
+    would leave the interval from LOW to HIGH is replaced by bisection.
 
     In flight `first` is Newton's move -f/f', `bend` is f''/f', and `rate` is 0. In contact `rate`
     is the natural frequency n of the contact. `first` then estimates the move by the
