@@ -83,7 +83,7 @@ def with_costs(text, results):
         seconds = costs.loc[stage]
         rows += f"\n| `{stage}` | {message} | {seconds['size']:.0f} | {seconds['sum']:.0f} |"
     where = f"{machine['cores']} cores of {machine['processor']}, {costs['sum'].sum():.0f} in all"
-    head = re.sub(r"\(measured on [^)]*\)", f"(measured on {where})", head)
+    head = re.sub(r"\(measured on .* in all\)", f"(measured on {where})", head)
     return f"{head}| stage | result | jobs | CPU seconds |\n{rows}\n\n{end}"
 
 
