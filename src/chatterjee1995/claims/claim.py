@@ -74,8 +74,8 @@ class Claim:
     """A statement of the paper, and the bounds that decide whether it is reproduced.
 
     `number` is "1" to "19" for claims, or "S1" to "S6" for misprints and omissions.
-    `evidence(datasets)` returns a dict of numbers, or raises `Missing`. Such a number is NaN if the
-    data do not determine it. `reading` says how vague words of the paper are read. `finding` is a
+    `evidence(datasets)` returns a dict of numbers, or raises `Missing`. Numbers that the data do
+    not determine are NaN. `reading` says how vague words of the paper are read. `finding` is a
     template for a text with the numbers, and fits every verdict.
 
     `required` and `full_agreement` are dicts: bound as text -> meaning of the bounded number, or

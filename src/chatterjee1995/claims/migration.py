@@ -49,7 +49,7 @@ def _scanned(datasets, case):
     """Return a dict: frequency W -> whether the phase of release decides which motion follows.
 
     The value is True if from one quiet motion some releases lead to the non-resonance motion and
-    others to the subharmonic. Only scans with the oscillator and damper of `case` are read.
+    others to the subharmonic. Only release scans with the oscillator and damper of `case` count.
     """
     wanted = oscillator_of(case), damper_of(case)
     found = {}
@@ -124,9 +124,9 @@ def early_release(datasets):
 def by_policy(datasets, case, policy):
     """Return the share of runs in which a release policy succeeds, and the median time to success.
 
-    `case` is a dataset of the stage `migration`. Only runs with its oscillator, damper and
-    frequency count; if there are none, both results are NaN. A run succeeds if it reaches the goal
-    within 350 cycles. The time is in cycles, and infinite without success.
+    `case` is a dataset of the stage `migration`. Only runs with the oscillator, the damper and the
+    frequency of `case` count. Without such runs both results are NaN. A run succeeds if it reaches
+    the goal within 350 cycles. The time is in cycles, and infinite without success.
     """
     damper, frequency = damper_of(case), reading.parameter(case, "frequency")
     names = "mass_ratio", "clearance", "restitution"

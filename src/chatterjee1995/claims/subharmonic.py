@@ -11,14 +11,13 @@ AS_LARGE = 0.95  # a subharmonic counts as unchanged if max |Z1| / (free max |Z1
 
 
 def _remaining(datasets, name):
-    """Return a dict about a curve with damper and its stable orbits of period 3, 6, 9, ... cycles.
+    """Return a dict on a damped curve's stable orbits of period 3, 6, 9, ... cycles.
 
     `band`: width in W of the suppression band by harmonic balance.
-    `in_band`: width of the part of the suppression band in which such an orbit exists.
-    `between`: width of the part of the free subharmonic's range of W in which such an orbit exists.
-    `ratio`: largest value, over the orbits and over W, of (max |Z1| of such an orbit)/(max |Z1| of
-    the free subharmonic at the same W).
-    `ratio_in_band`: the same, but only over W in the suppression band.
+    `in_band`: width in W over which such orbits exist, in the suppression band.
+    `between`: width in W over which such orbits exist, in the range of the free subharmonic.
+    `ratio`: the largest (max |Z1| of such an orbit)/(max |Z1| of the free subharmonic at this W).
+    `ratio_in_band`: the largest such ratio at any W in the suppression band.
     """
     branches, free = orbits.of_curve(datasets, name)
     part = orbits.stable_subharmonics(branches)
@@ -68,8 +67,8 @@ def _reduction(datasets, name):
     no subharmonic counts as max |Z1| = 0.
     `relative`: `fall` divided by the mean of max |Z1| without the damper.
     `unchanged`: (width in W of the unchanged subharmonic)/(width in W of the free subharmonic).
-    Unchanged: a stable subharmonic with the damper has max |Z1| of at least AS_LARGE times that of
-    the free subharmonic.
+    A subharmonic with the damper is unchanged if it is stable and its max |Z1| is at least
+    AS_LARGE times max |Z1| of the free subharmonic.
     """
     branches, free = orbits.of_curve(datasets, name)
     ends = orbits.subharmonic_range(free)

@@ -113,7 +113,7 @@ def passage(axes, low, high, edge, words, upward):
     """Draw a switching of the damper: a vertical arrow between two planes, with the text `words`.
 
     The arrow joins the points `low` and `high`. It points up if `upward` is true, otherwise down.
-    Above the height `edge`, where the upper plane begins, its line is dashed.
+    The arrow is dashed above the height `edge`, at which the upper plane begins.
     """
     x = low[0]
     ends = [(x, low[1] + 0.03), (x, edge)]

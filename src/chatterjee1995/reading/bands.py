@@ -10,7 +10,7 @@ from chatterjee1995.reading import orbits
 
 
 class Band(NamedTuple):
-    """A suppression band in W. It ends at `upper`, and begins in [lower, lower + resolution]."""
+    """A suppression band from W = `lower` to `upper`. It may begin up to `resolution` higher."""
 
     lower: float
     upper: float
@@ -28,7 +28,7 @@ class Band(NamedTuple):
 
 
 def high_motions(response, free):
-    """Return a mask of violent motions. At W above the end of the free resonance it is false."""
+    """Return a mask of violent motions. It is False above the end of the resonance in `free`."""
     frequency = response.frequency
     size = xr.DataArray(orbits.resonance(free, frequency), {"frequency": frequency})
     return reading.touching(response) & (response.maximum_displacement > orbits.HALF * size)
@@ -43,10 +43,10 @@ def quiet_motions(response, free):
 def suppression_band(datasets, name):
     """Return the suppression band of a curve as a `Band`.
 
-    The band reaches from the highest W at which a motion is violent to the end of the free
-    resonance. If all violent motions are periodic, `resolution` is 0. Otherwise it is at most the
-    distance between two neighbouring W at which motions are simulated. Without violent motions,
-    `lower` and `resolution` are NaN.
+    `lower`: the highest W at which a violent motion is found; NaN without violent motions.
+    `upper`: the W at which the free resonance ends.
+    `resolution`: the band may begin so far above `lower`. It is 0 if all violent motions are
+    periodic, NaN without violent motions, otherwise at most one step in W between simulations.
     """
     branches, free = orbits.of_curve(datasets, name)
     response = reading.get(datasets, "response", name)

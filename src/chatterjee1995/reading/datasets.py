@@ -77,7 +77,7 @@ def touching(response):
 
 
 def share_of_starts(response, motions):
-    """Return the share of random starts at each W that lead to motions in the mask `motions`."""
+    """Return, for each W, the share of random starts that lead to motions with `motions` True."""
     total = response.motion_starts.sum("motion")
     led = response.motion_starts.where(motions, 0).sum("motion")
     return (led / total.where(total > 0)).fillna(0)
@@ -102,7 +102,7 @@ def crossing(x, y, level):
 
 
 def band_edges(design):
-    """Return the ends of the suppression band by harmonic balance, or raise Missing."""
+    """Return the ends of the suppression band in a harmonic balance dataset, or raise Missing."""
     lower, upper = design.edge_frequency.values
     if not upper > lower:
         raise Missing("There is no suppression band by harmonic balance")
@@ -110,19 +110,19 @@ def band_edges(design):
 
 
 def stable_impacting(design):
-    """Return amplitudes of solutions of (7) that are stable and have contacts, NaN for others."""
+    """Return amplitudes by equation (7), NaN where a solution is not stable or has no contacts."""
     stable = design.stability == flag("stability", "stable")
     return design.amplitude.where(stable & (design.kind == flag("kind", "impacting")))
 
 
 def quiet_balance(design):
-    """Return for each W the amplitude a of the stable impacting solution of (7) with least |a|."""
+    """Return at each W the amplitude a of least |a| among stable solutions of (7) with contacts."""
     amplitude = stable_impacting(design)
     return amplitude.isel(solution=np.abs(amplitude).fillna(np.inf).argmin("solution"))
 
 
 def design_point(orbit):
-    """Return from a dataset of the stage `design_orbit` the quiet orbit at the design point."""
+    """Return the quiet orbit at the design point from a dataset of the stage `design_orbit`."""
     if named(orbit, "design_orbit_status") != "found":
         raise Missing("There is no quiet orbit at a design point: the continuation ended before")
     return orbit.isel(point=int(np.argmin(orbit.followed_value.values)))

@@ -85,12 +85,12 @@ def ranges(part):
 
 
 def covered(part, lower=-np.inf, upper=np.inf):
-    """Return the total width of the frequency ranges in [lower, upper] that pieces cover."""
+    """Return the total width in W that pieces cover between `lower` and `upper`."""
     return sum(np.ptp(np.clip(ends, lower, upper)) for ends in ranges(part))
 
 
 def coexisting(part, column):
-    """Return the total width in W of the overlaps of pieces that differ in the column `column`."""
+    """Return the total width in W over which pieces with different values of `column` overlap."""
     values = [ranges(same) for _, same in part.groupby(column)]
     if not values:
         return 0.0
@@ -104,7 +104,7 @@ def coexisting(part, column):
 
 
 def crossings(part, frequency) -> pd.DataFrame:
-    """Return a table of orbits at given frequencies, interpolated within pieces of branches."""
+    """Return a table of orbits at given frequencies, interpolated in the table `part` of pieces."""
     frequency = np.atleast_1d(np.asarray(frequency, float))
     inside = frequency[:, None] >= part.lower.to_numpy()
     inside &= frequency[:, None] <= part.upper.to_numpy()
@@ -119,13 +119,13 @@ def crossings(part, frequency) -> pd.DataFrame:
 
 
 def smallest(part, frequency) -> pd.DataFrame:
-    """Return a table with the orbit of least max |Z1| at each frequency."""
+    """Return a table with the orbit of least max |Z1| in the pieces `part` at each frequency."""
     rows = crossings(part, frequency)
     return rows.loc[rows.groupby("frequency")["size"].idxmin()]
 
 
 def largest_sizes(part, frequency):
-    """Return the largest max |Z1| of orbits at each frequency, NaN where there is no orbit."""
+    """Return the largest max |Z1| in the pieces `part` at each frequency, NaN without a piece."""
     return crossings(part, frequency).groupby("frequency")["size"].max().reindex(frequency).values
 
 
@@ -148,14 +148,14 @@ def resonance(free, frequency):
 
 
 def high(branches, free):
-    """Return the pieces of branches whose orbits are stable and violent, with any period."""
+    """Return a table of the pieces with stable violent orbits, of any period."""
     part = pieces(branches)
     part = part[part.stable]
     return part[part["size"] > HALF * resonance(free, part.frequency)]
 
 
 def quiet(branches, free):
-    """Return the pieces of branches whose orbits are stable, of period 1 and not violent."""
+    """Return a table of the pieces with stable orbits of period 1 that are not violent."""
     part = pieces(branches)
     part = part[part.stable & (part.period == 1)]
     return part[~(part["size"] > HALF * resonance(free, part.frequency))]
@@ -188,7 +188,7 @@ def high_counterparts(design, branches, free) -> pd.DataFrame:
 
 
 def subharmonic(free):
-    """Return the pieces of that branch of free one-third subharmonics which is widest in W."""
+    """Return the pieces of the widest branch (in W) of the one-third subharmonic without damper."""
     part = pieces(free)
     third = part[(part.period == 3) & (part.asymmetry < SYMMETRIC)]
     if third.empty:
@@ -203,6 +203,6 @@ def subharmonic_range(free):
 
 
 def stable_subharmonics(branches):
-    """Return the pieces of branches whose orbits are stable and have period 3, 6, 9, ... cycles."""
+    """Return a table of the pieces with stable orbits of period 3, 6, 9, ... cycles."""
     part = pieces(branches)
     return part[part.stable & (part.period % 3 == 0)]

@@ -27,7 +27,7 @@ from impact_damper.command.section import (
 )
 from impact_damper.model import bounds
 
-# Pairs of keys. The product of both values is the number of runs of a job, and has a bound.
+# Pairs of keys. A job has (first value) x (second value) runs, and this number is bounded.
 COUNTS = (
     ("points.free", "search.starts"),
     ("points.simulated", "search.starts"),
@@ -36,7 +36,7 @@ COUNTS = (
     ("points.scanned", "controller.releases"),
     ("points.map_frequencies", "points.map_values"),
 )
-# Names of drawings. A figure of the kind `schematic` has one of them in its key `data`.
+# Names of drawings. A figure of the kind `schematic` names its drawing in the key `data`.
 SCHEMATICS = ("elastic_model", "inelastic_model", "migration_scheme", "algorithm", "impact_pair")
 
 TEXT = text("in Markdown or reStructuredText without links")
@@ -70,7 +70,7 @@ class Search(Section):
 
 
 class Settling(Section):
-    """Length and tolerance of runs."""
+    """Length of runs, and tolerance of the integrator."""
 
     tolerance: number("local error allowed in a step of the integrator", **bounds.TOLERANCE_RANGE)
     patience: count(
@@ -207,7 +207,7 @@ def configuration(given, trusted=False):
 
 
 def without_left_out(given):
-    """Return the configuration without entries that are null. Figures no longer name them."""
+    """Return the configuration without null entries. Their names are also removed from figures."""
     if not isinstance(given, dict):
         return given
     sections = {key: value for key, value in given.items() if isinstance(value, dict)}

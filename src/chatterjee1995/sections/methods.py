@@ -173,7 +173,7 @@ class Accuracy(Section):
 
 
 class Scene(system.MaybeWithDamper):
-    """Motions on which integrators and models are compared: errors and numbers of operations."""
+    """Motions for which the errors and the work of integrators and models are compared."""
 
     frequency: system.FREQUENCY
     state: several(COMPONENT, "Z1, Z1', Z2, Z2' at the start, W T = pi/2", least=4, most=4)

@@ -27,7 +27,7 @@ class Stage(NamedTuple):
 def stage(function, message, **options):
     """Return a decorator. The method that it decorates becomes the field `job` of a `Stage`.
 
-    The arguments set further fields of this `Stage`. By default it has the name of the method.
+    The arguments are other fields of the `Stage`. Its field `name` is by default the method's name.
     """
 
     def mark(job):
@@ -67,6 +67,6 @@ class Kind(Shown):
 
     room = "figures"
     most: int = 6  # largest number of entries in a figure
-    # True: the curves must have a damper. A figure of the stage `branches` then also shows orbits
-    # of the curves' oscillators without a damper. False: the curves must have no damper.
+    # Whether all curves in a figure must have a damper (True) or must have none (False). If True,
+    # a figure that reads the stage `branches` also shows orbits of the free oscillators.
     damper: bool = True

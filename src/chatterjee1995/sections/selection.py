@@ -31,7 +31,7 @@ def job(config, stage, name) -> dict:
 
 
 def read_by(config, stage, name) -> dict:
-    """Return a dict: argument of a stage's function -> stages that compute it for an entry."""
+    """Return a dict: argument of a stage's function -> stages whose datasets the argument holds."""
     return {
         key: [each for each in stages if name in entries(config, each)]
         for key, stages in STAGES[stage].reads.items()
@@ -130,7 +130,7 @@ def _case(config, section, name):
 
 
 def caption(title, cases, text, remark) -> str:
-    """Return a figure's caption: title, parameters (`cases`), text shared by its kind, remark."""
+    """Return a caption: title, parameters (`cases`), text for this kind of figure, and remark."""
     head = f"{title}: {cases}." if cases else f"{title}."
     whole = "\n".join(part for part in (head, text.strip(), remark) if part)
     whole = re.sub(r"\bW(?=p?(²|\b))", "Ω", whole)

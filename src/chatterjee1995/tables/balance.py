@@ -115,7 +115,7 @@ def _convergence(data):
 
 
 def _needed(highest, error, accuracy):
-    """Return the number of harmonics from which on the error is at most `accuracy`, else NaN."""
+    """Return the least number of harmonics at and above which `error` <= `accuracy`, or NaN."""
     above = np.flatnonzero(~(error <= accuracy))
     first = above[-1] + 1 if len(above) else 0
     return highest[first] if first < len(highest) else np.nan

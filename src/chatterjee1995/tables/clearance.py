@@ -9,7 +9,7 @@ from chatterjee1995.tables.files import parameter_columns
 from impact_damper.data.datasets import damper_of, decode, oscillator_of, parameters_of
 
 WITHIN = (1, 10)  # the table counts the optima predicted within these errors, in per cent
-# Rule for the clearance -> its name: the value of rm W^2 d0 if it is constant, else the model.
+# Rule for the clearance -> name: a constant value of rm W^2 d0, or the model behind the rule.
 RULE_NAMES = {
     "balance": "(18): 1",
     "gap_harmonic": "pi^2/8",
