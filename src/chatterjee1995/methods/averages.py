@@ -13,7 +13,7 @@ from impact_damper.motions.strobe_map import strobe_time
 
 
 def of_run(p, run, begin, periods, batch):
-    """Return two averages over each `batch` cycles: contacts per cycle, and max |Z1| of a cycle."""
+    """Return averages over each batch of cycles: contacts per cycle, and max |Z1| of a cycle."""
     count = periods // batch
     edges = begin + 2 * math.pi / p[FREQUENCY] * np.arange(count * batch + 1)
     contacts = np.histogram(run.contact_times, edges)[0]

@@ -19,7 +19,7 @@ def samples(coefficients, harmonics, count) -> np.ndarray:
 
 
 def value(coefficients, harmonics, angle, order=0) -> np.ndarray:
-    """Return the values of a series at each angle s, or of its derivative of the given order."""
+    """Return a series, or its derivative of the given order, at each angle s."""
     weights = 2 * (1j * harmonics) ** order * coefficients
     return (np.exp(1j * np.multiply.outer(angle, harmonics)) @ weights).real
 
@@ -90,7 +90,7 @@ def _cells(function, coefficients, harmonics, ends, values):
 
 
 def indicator(rows, orders) -> np.ndarray:
-    """Let f be 1 in the intervals `rows`, else 0. Return its harmonics k in `orders`, k >= 0."""
+    """Return Fourier coefficients of the indicator function of the intervals `rows`."""
     _, begin, end = rows.T[:, :, None]
     half = (end - begin) / 2
     turn = np.exp(-0.5j * orders * (begin + end))

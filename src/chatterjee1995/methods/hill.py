@@ -15,7 +15,7 @@ EDGE = 1e-2
 
 
 class Exponents(NamedTuple):
-    """The Floquet exponents, 2 or with a damper 4, in the order of rising real parts.
+    """The Floquet exponents, in the order of rising real parts: 4 with a damper, 2 without.
 
     The status is "found"; "not_converged" if the search for eigenvalues fails; "not_separated" if
     the search finds too few or too many exponents. In the last two cases all values are NaN.
@@ -48,7 +48,7 @@ def exponents(solution) -> Exponents:
 
 
 def _near_zero(stiffness, damping, inertia):
-    """Return values lambda near 0 with (stiffness + lambda damping + lambda^2 inertia) p = 0."""
+    """Return lambda near 0 for which stiffness + lambda damping + lambda^2 inertia is singular."""
     size = len(stiffness)
     factors = lu_factor(stiffness, check_finite=False)
 

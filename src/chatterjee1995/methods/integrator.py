@@ -71,7 +71,7 @@ class Integrator:
         raise NotImplementedError
 
     def run(self, p, *given) -> Run:
-        """Call `steps` with the same arguments, and return its results as a `Run`."""
+        """Call `steps` with these arguments, and return its results as a `Run`."""
         status, work, times, ends = self.steps(p, *given)
         if status != "ended" or not np.isfinite(ends).all():
             return stopped("failed" if status == "ended" else status, work)
@@ -137,7 +137,7 @@ def _quintics(p, times, ends, index, steps):
 
 
 def root(coefficients, low, high):
-    """Return a root of each polynomial between `low` and `high`. Columns hold the coefficients."""
+    """Return one root from `low` to `high` for each polynomial, a column of `coefficients`."""
     sign = np.sign(polyval(low, coefficients, tensor=False))
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)

@@ -70,7 +70,7 @@ class Balance:
         return fourier.intervals(coefficients[1], self.harmonics, self.damper.clearance)
 
     def residual(self, coefficients, rows) -> np.ndarray:
-        """Return left minus right sides of (3), (4), (20), (21). `rows` is from `contacts`."""
+        """Return left minus right sides of the equations of motion. `rows` is from `contacts`."""
         k, rate, own = self.harmonics, self.rates, self.oscillator
         first = coefficients[0]
         count = fourier.product_samples(k, SPRING_POWER)
@@ -92,7 +92,7 @@ class Balance:
 
     @property
     def stiffness(self) -> np.ndarray:
-        """Dynamic stiffness r1 + i k W c of spring and dashpot in a wall, for each harmonic k."""
+        """Dynamic stiffness of a wall, a spring with a dashpot, for each harmonic."""
         return self.damper.contact_stiffness + self.rates * self.damper.dashpot
 
     def operator(self, coefficients, rows, power=0) -> np.ndarray:
@@ -158,7 +158,7 @@ def solve(balance, start) -> Solution:
     """Solve the equations of a balance by damped Newton's method, from coefficients `start`.
 
     The natural monotonicity test (Deuflhard, Newton Methods for Nonlinear Problems, 2004, section
-    3.3) decides whether to halve a step. The residual cannot, because stiff contacts dominate it.
+    3.3) decides whether to halve a step. Stiff contacts would dominate a test of the residual.
     """
     count = len(balance.harmonics)
     now = np.zeros((len(start), count), complex)
@@ -188,7 +188,7 @@ def solve(balance, start) -> Solution:
 
 
 def single_term(oscillator, damper, frequency) -> np.ndarray:
-    """Return coefficients of the smallest solution of (7), or without a damper of the largest."""
+    """Return coefficients of a solution of (7): the smallest with a damper, the largest without."""
     if damper is None:
         free = main_solutions(oscillator, frequency)
         return free.amplitude[-1:, None] * np.exp(1j * free.phase[-1]) / 2

@@ -47,8 +47,8 @@ def missed_contacts(
 
     `passages` motions begin at random states in a ball of the given `radius`. For each of `depths`
     the wall is placed twice: so that the loose mass enters the wall by this depth, and so that it
-    turns back at the same distance before the wall. Integrators with equal steps use `steps`, the
-    numbers of steps in a cycle, not `tolerances`.
+    turns back at the same distance before the wall. Integrators with equal steps use no
+    tolerance. `steps` are their numbers of steps in a cycle.
     """
     depths = read_increasing(UNITLESS, "depths", depths, above=0.0)
     tolerances = read_increasing(UNITLESS, "tolerances", tolerances, **METHOD_TOLERANCE_RANGE)

@@ -33,7 +33,7 @@ from impact_damper.orbits.shooting import find_orbit
 from impact_damper.theory import single_harmonic
 from impact_damper.theory.free_oscillator import free_solutions
 
-# Numbers of operations that find all solutions of (7), and all roots of (14).
+# Numbers of operations to find all solutions of (7), and to find all roots of (14).
 FULL_WORK, RIGID_WORK = 100 * 130 + 10 * 32**3, 10 * (6**3 + 5**3) + 6 * 10 * 12
 REACH = 10.0  # largest difference of a rigid orbit's state from the first guess, in each component
 

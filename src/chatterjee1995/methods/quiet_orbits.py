@@ -129,8 +129,8 @@ def _row_ends(grid, row):
 
 
 def _end(followed):
-    # `spread` has not reached the next cell, so the row ends in this cell. It does so even if now
-    # following arrives, because it can extrapolate from an orbit that `spread` found later.
+    # `spread` has not reached the next cell, so the row ends in this cell. Now `follow` may reach
+    # the next cell, since it can extrapolate from an orbit that `spread` found later.
     if followed.arrived:
         return 0.0, "not_converged"
     before, fraction = followed.values

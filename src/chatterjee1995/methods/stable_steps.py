@@ -1,4 +1,4 @@
-"""Largest steps at which methods with equal steps still compute quiet motions, for each r1."""
+"""Methods with equal steps: largest accurate steps in quiet motions, for each stiffness r1."""
 
 import itertools
 import math
@@ -46,7 +46,7 @@ STIFF = 1e3  # least r1 in the fit of `step_slope`; for larger r1 contacts are s
 
 
 def orbits_over_stiffness(oscillator, damper, frequency, stiffnesses) -> list:
-    """Return the quiet orbit at each stiffness, or None, followed from the orbit with `damper`."""
+    """Follow the quiet orbit of `damper` to each stiffness. Return orbits (None: not reached)."""
     p = pack(oscillator, damper, frequency)
     start = np.array([[0.0, 0.0, 0.0, -2 * p[CLEARANCE] * p[FREQUENCY] / math.pi]])
     record = ensemble.settle(p[None], start, Settling(), from_strobe=True)[0]

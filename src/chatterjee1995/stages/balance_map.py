@@ -71,10 +71,10 @@ HIGH = 0.5  # a motion is low if max |Z1| is below this fraction of `Cells.reson
 class Cells(NamedTuple):
     """Solutions of harmonic balance in all cells of a map, and the states from which runs start.
 
-    All starts are states at T = 0. `resonance` is the amplitude of the free resonance, or beyond
-    the end of its branch the amplitude at this end. Without a quiet solution, `quiet_amplitude` and
-    `quiet_start` are NaN. Without a high solution, `high_amplitude` is NaN, and `high_start` is a
-    state of the free resonance with the loose mass at rest, or NaN beyond the end of the branch.
+    All starts are states at T = 0. `resonance` is the amplitude of the free resonance. Beyond
+    the end of the resonance branch it is the amplitude at this end. Without a quiet solution,
+    `quiet_amplitude` and `quiet_start` are NaN. Without a high solution, `high_amplitude` is NaN.
+    Then `high_start` is on the free resonance with a loose mass at rest, or NaN beyond the branch.
     """
 
     resonance: np.ndarray

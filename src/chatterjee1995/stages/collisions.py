@@ -1,4 +1,4 @@
-"""Share of the starts in a ball of states that lead to a collision (section 3, iii)."""
+"""How often starts in a ball of states lead to a collision (section 3, iii)."""
 
 import math
 

@@ -91,7 +91,7 @@ def _cell(oscillator, mass_ratio, restitution, contact_stiffness, frequency):
 
 
 class QuietMotion:
-    """The quiet orbit as a function of the ratio rm W^2 d0/f, which sets the clearance."""
+    """The quiet orbit at any ratio rm W^2 d0/f. f is the amplitude of the forcing."""
 
     def __init__(self, oscillator, damper, frequency):
         flight = flight_of(oscillator, damper, frequency)
@@ -109,7 +109,7 @@ class QuietMotion:
         self._states /= np.array([[frequency**2, frequency] * 2]).T / self._forcing
 
     def at(self, ratio):
-        """Return max |Z1| and first harmonic of Z1, both in units of f/W^2, and |multiplier|."""
+        """Return max |Z1| and first harmonic of Z1, in units of forcing/W^2, and |multiplier|."""
         if ratio not in self._known:
             self._known[ratio] = self._orbit(ratio)
         return self._known[ratio]
@@ -129,7 +129,7 @@ class QuietMotion:
         return *(scale * size for size in sizes), abs(orbit.multiplier)
 
     def least(self, criterion, guess):
-        """Return the ratio of a minimum of `at(ratio)[criterion]` near `guess`, and its kind.
+        """Return the ratio near `guess` at which `at(ratio)[criterion]` is least, and a kind.
 
         The kind is "smooth" or "kink"; "jump" if the orbits end within CLOSE of the minimum; "edge"
         if MOST_STEPS steps do not reach a minimum; "not_found" if there is no orbit at `guess`.

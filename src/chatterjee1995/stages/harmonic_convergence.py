@@ -54,16 +54,16 @@ ANALYTIC = (1.0, 1.0, 1.0, 2.0)
 # STARTS: number of start times in half a forcing cycle.
 # LARGE: |Z1| at which an integration towards the singularity stops.
 # LAST_CHANGE: the search ends if the last two integrations stop at times that differ by less.
-# CLOSE: all integrations but the first go this fraction of the way from real T to the singularity.
+# CLOSE: all integrations but the first go this fraction of the way to the singularity.
 STARTS, LARGE, LAST_CHANGE, CLOSE = 12, 30.0, 1e-6, 0.95
 
 
 def asymptotic_harmonic(damper, frequency) -> float:
-    """Return the harmonic above which the predicted powers of 1/N can hold; 1 without a damper.
+    """Return the harmonic above which errors can decrease as predicted; 1 without a damper.
 
-    The result is the larger of two numbers. Harmonics above one of them have periods shorter than a
-    contact (appendix B). The other one, r1/(c W), is for walls with a dashpot c. In harmonics above
-    r1/(c W) the jump c Z2' of the contact force outweighs the jump r1 Z2' of its slope.
+    Harmonics above the result have periods shorter than a contact (appendix B). If the walls have a
+    dashpot with the coefficient c, the result is at least r1/(c W). In harmonics above r1/(c W) the
+    jump c Z2' of the contact force outweighs the jump r1 Z2' of its slope.
     """
     if damper is None:
         return 1.0
@@ -75,7 +75,7 @@ def asymptotic_harmonic(damper, frequency) -> float:
 
 
 def decay(damper, p, state) -> tuple:
-    """Return how errors should fall: ("algebraic", powers of 1/N) or ("exponential", rates)."""
+    """Return how errors fall with the highest harmonic N: a kind, and powers of 1/N or rates."""
     if damper is None:
         return "exponential", np.array(ANALYTIC) * p[FREQUENCY] * singularity_distance(p, state)
     return "algebraic", np.array(ELASTIC if damper.restitution == 1 else INELASTIC)
@@ -141,7 +141,7 @@ FINEST = 1e-14  # tolerance with which the exact orbit is integrated
 
 
 def ladder(highest) -> np.ndarray:
-    """Return odd numbers up to `highest` (at most 2^14): all up to 15, then three per doubling."""
+    """Return odd numbers up to `highest` (at most 2^14): all up to 15, then in steps of 26 %."""
     powers = np.round(2.0 ** np.arange(4, 14.01, 1 / 3))
     chosen = np.concatenate([np.arange(1, 16, 2), 2 * (powers // 2).astype(int) - 1])
     return np.unique(chosen[chosen <= highest])
@@ -189,7 +189,7 @@ def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
 
 
 def cold_status(warm, first) -> int:
-    """Solve again from the coefficients `first`. Return a flag: whether `warm` is found again."""
+    """Solve again, from coefficients `first`. Return a flag: is the result the solution `warm`?"""
     found = solve(warm.balance, first)
     if found.status != "converged":
         return flag("cold_status", found.status)

@@ -45,9 +45,9 @@ policy_phase | case frequency policy | angle | | phase Omega T of the release th
 POLICIES = ["settled", "hold", "phase", "state"]
 HOLDS = (1, 2, 3, 5, 8, 13, 21, 34)  # numbers of cycles for which policies leave the damper on
 QUANTILES = [0.5, 0.95]  # quantiles of the cycles until the goal
-# A run with the damper on, for a number of `cycles`. `released` is false if a limit of cycles ended
-# the run, and not a rule. The damper is then switched off. The next strobe comes `ahead` cycles
-# later, and `state` holds Z1 and Z1' at this strobe.
+# A run with the damper on, for a number of `cycles`. `released` is true if a rule ended the run,
+# and false if a limit of cycles did. At the end of the run the damper is switched off. The next
+# strobe comes `ahead` cycles later, and `state` holds Z1 and Z1' at this strobe.
 HELD = np.dtype(
     [("released", "?"), ("cycles", "f8"), ("impacts", "i8"), ("state", "f8", 2), ("ahead", "f8")]
 )
@@ -56,7 +56,7 @@ RULE = np.dtype([("kind", "i8"), ("cycles", "f8"), ("phase", "i8")])
 
 
 class Outcome(NamedTuple):
-    """Results of trials. `cycles` counts cycles to the goal, `damper` those with the damper on."""
+    """Results of trials: `cycles` to the goal, and cycles with the damper on (`damper`)."""
 
     reached: np.ndarray
     cycles: np.ndarray
@@ -70,8 +70,8 @@ def release_policies(
 ):
     """Return a dataset that compares release policies for each damper and frequency.
 
-    Each policy has `trials` trials. The grid of a release set has `cells`^2 cells. At the edge of
-    the set they are divided into smaller cells.
+    Each policy has `trials` trials. The grid of a release set has `cells`^2 cells. The cells at the
+    edge of the set are divided into smaller cells.
     """
     shape = len(dampers), len(frequencies), len(POLICIES)
     data = {
@@ -159,7 +159,7 @@ class Trials(NamedTuple):
         return list(map(Outcome, *(column.reshape(-1, trials) for column in columns)))
 
     def hold(self, starts, draws, limits, rules):
-        """Call `hold_many` with these arguments in several threads. Return its HELD records."""
+        """Call `hold_many` in several threads. Return a HELD record for each of `starts`."""
         held, stop = np.zeros(len(starts), HELD), np.zeros(1, bool)
         set_ = self.releases
 
@@ -173,7 +173,7 @@ class Trials(NamedTuple):
         return held
 
     def labels(self, states):
-        """Return labels of free motions from strobe states, and the cycles until each is known."""
+        """Return the labels of free motions from states at the strobe, and convergence times."""
         settings = self.settling.tolerance, self.settling.limit, self.workers
         return ensemble.label_states(
             self.releases.p, states, math.pi / 2, self.releases.attractors, *settings

@@ -87,8 +87,8 @@ def migration(
 
     A run ends at the goal, after `periods` cycles, or after `switchings` releases. The damper is
     switched off at a random phase after the motion has settled, or after `longest_hold` cycles.
-    `releases` releases take place from each settled motion with the damper. In `releases` other
-    motions, one release takes place in the transient, within the first `lifetime` cycles.
+    `releases` releases take place from each settled motion with the damper. `releases` other
+    motions have one release each, in the transient and within the first `lifetime` cycles.
     """
     case = release_case(oscillator, damper, frequency, settling)
     roots = np.random.SeedSequence(seed).spawn(2)
@@ -257,8 +257,8 @@ def release_scan(
 ):
     """Return a dataset of the free motions to which releases lead, at each of `frequencies`.
 
-    `starts` random starts lead to settled motions. From each of these, `releases` releases take
-    place. In `releases` other motions, one takes place in the transient, within `lifetime` cycles.
+    `starts` random starts lead to settled motions. Each of these has `releases` releases.
+    `releases` other motions have one release each, in the transient, within `lifetime` cycles.
     """
     cases = [release_case(oscillator, damper, frequency, settling) for frequency in frequencies]
     search = {"starts": starts, "radius": radius, "seed": seed, "settling": settling}

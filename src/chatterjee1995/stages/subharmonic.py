@@ -48,8 +48,8 @@ def subharmonic_suppression(
     """Return a dataset of subharmonics with the damper, and of the free subharmonic.
 
     The free subharmonic is searched for from the first to the last of `frequencies`. If it exists,
-    as many other frequencies are used instead: they cover its range, with a margin at both ends. In
-    half of the starts in this range, the damper is switched on during the free subharmonic.
+    as many other frequencies are used instead: they cover its range, with a margin at both ends. At
+    each frequency in its range, half of the runs switch the damper on in the free subharmonic.
     """
     if not any(getattr(oscillator, name) for name in NONLINEAR):
         raise ValueError(
@@ -151,7 +151,7 @@ def branch_ends(data, branch, grid, rows):
 
 
 class FreeSubharmonic(NamedTuple):
-    """The free subharmonic: states at W T = pi/2 for rows of `parameters`, and its range of W."""
+    """The free subharmonic: packed `parameters`, states at W T = pi/2, lowest and highest W."""
 
     parameters: np.ndarray
     states: np.ndarray
@@ -173,7 +173,7 @@ class FreeSubharmonic(NamedTuple):
 def free_subharmonic(
     oscillator, first, last, *, starts=96, radius=None, seed=1995, settling, workers=1
 ) -> FreeSubharmonic:
-    """Return the branch of the free subharmonic that is found most often from `first` to `last`."""
+    """Search for free subharmonics from W = `first` to `last`. Return the most frequent branch."""
     frequencies = np.linspace(first, last, SEARCHED)
     parameters = np.array([pack(oscillator, None, value) for value in frequencies])
     systems = [(None, value) for value in frequencies]

@@ -12,7 +12,7 @@ WARM_UP = "impact_damper.command.warm_up"
 
 
 def compiled_kernels(orders) -> str:
-    """Return a text that changes with the sources of the kernels and with `orders`."""
+    """Return a text that changes with the sources of the kernels and with the Taylor `orders`."""
     return f"{kernel_digest(*map(module_file, (WARM_UP, __name__)))} {orders}\n"
 
 
