@@ -45,8 +45,8 @@ def suppression_band(datasets, name):
 
     `lower`: the highest W at which a violent motion is found; NaN without violent motions.
     `upper`: the W at which the free resonance ends.
-    `resolution`: the band may begin so far above `lower`. It is 0 if all violent motions are
-    periodic, NaN without violent motions, otherwise at most one step in W between simulations.
+    `resolution`: the band begins at most this far above `lower`. It is NaN without violent motions,
+    0 if all violent motions are periodic, otherwise at most the step in W between simulations.
     """
     branches, free = orbits.of_curve(datasets, name)
     response = reading.get(datasets, "response", name)

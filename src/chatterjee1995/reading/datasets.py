@@ -77,7 +77,7 @@ def touching(response):
 
 
 def share_of_starts(response, motions):
-    """Return, for each W, the share of random starts that lead to motions with `motions` True."""
+    """Return at each W the share of random starts whose motion has True in the mask `motions`."""
     total = response.motion_starts.sum("motion")
     led = response.motion_starts.where(motions, 0).sum("motion")
     return (led / total.where(total > 0)).fillna(0)

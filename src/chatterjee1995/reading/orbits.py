@@ -104,7 +104,7 @@ def coexisting(part, column):
 
 
 def crossings(part, frequency) -> pd.DataFrame:
-    """Return a table of orbits at given frequencies, interpolated in the table `part` of pieces."""
+    """Return a table of orbits at given frequencies, interpolated in `part`, a table of pieces."""
     frequency = np.atleast_1d(np.asarray(frequency, float))
     inside = frequency[:, None] >= part.lower.to_numpy()
     inside &= frequency[:, None] <= part.upper.to_numpy()

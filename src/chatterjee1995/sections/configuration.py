@@ -207,7 +207,7 @@ def configuration(given, trusted=False):
 
 
 def without_left_out(given):
-    """Return the configuration without null entries. Their names are also removed from figures."""
+    """Return the configuration without null entries, and without their names in figures."""
     if not isinstance(given, dict):
         return given
     sections = {key: value for key, value in given.items() if isinstance(value, dict)}
