@@ -174,7 +174,7 @@ def response(
 
 
 def different(sizes, shares, alike=1e-4):
-    """Return {displacement: share}. Displacements with a ratio up to 1 + `alike` count as one."""
+    """Return {size: share}. Shares of sizes that differ by the fraction `alike` are added up."""
     found, last = {}, -1.0
     for size, share in sorted(zip(map(float, sizes), map(float, shares), strict=True)):
         if size > last * (1 + alike):
@@ -266,9 +266,9 @@ def read(path):
 
 
 def answer(decide, made, machine_file, file, force, as_json):
-    """Call `decide` for a dataset. Save it at the path `file`, write its page, print the answer.
+    """Call `decide`, save its result in `file`, write a page about the result, print the answer.
 
-    Raise an error if the folder holds data of a machine other than `made`, unless `force` is True.
+    Unless `force` is True, the folder of `file` must not hold data of a machine other than `made`.
     """
     from impact_damper.data.datasets import decode, save
     from impact_damper.model.machine import describe_si
@@ -288,7 +288,7 @@ def answer(decide, made, machine_file, file, force, as_json):
 
 
 def damper(given, machine, gap):
-    """Return the damper of a machine's file (content `given`) with a gap, or None without a gap."""
+    """Return a damper, or None if `gap` is None. `given` is the content of a machine's file."""
     from impact_damper.command.machine_file import design_arguments
     from impact_damper.design.task import Task
 
@@ -309,7 +309,7 @@ def quantity(text):
 
 
 def write_report(data, file, folder):
-    """Write a page about the dataset in `file` into a folder. Return the path of the page."""
+    """Write a page about `data`, the dataset in `file`, into a folder. Return the page's path."""
     from impact_damper.plot.pages.render import write_page
 
     name = Path(data.attrs.get("input_file", file.name)).stem
@@ -319,7 +319,7 @@ def write_report(data, file, folder):
 
 
 def kept(data, output):
-    """Save a dataset to the path `output`, and return [message]. If `output` is None, return []."""
+    """Unless `output` is None, save a dataset to this path. Return a list of messages."""
     if output is None:
         return []
     from impact_damper.data.datasets import save

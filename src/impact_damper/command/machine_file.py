@@ -18,7 +18,7 @@ from impact_damper.model.units import QUANTITIES, absolute_value, check_si, si_v
 
 
 class AllowedQuantity(Allowed):
-    """Allowed values of a physical quantity. A value that is checked stays as the user wrote it."""
+    """Allowed values of a physical quantity. The check leaves a value as the user wrote it."""
 
     def __init__(self, quantity, bounds, meaning, absolute=()):
         unit = QUANTITIES[quantity].unit
@@ -118,7 +118,7 @@ Body = create_model("Body", __base__=Given, **fields_of(Machine))
 
 
 def deviation_of(what, *absolute):
-    """Return an optional field: largest deviation of `what`, as a fraction or with a unit."""
+    """Return an optional field: tolerance of `what`, a fraction or a quantity in `absolute`."""
     meaning = f"largest relative deviation of {what}"
     return quantity_of("number", meaning, absolute, least=0, most=0.9), None
 

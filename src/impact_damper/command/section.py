@@ -30,7 +30,7 @@ NUMBER, RANGE = "<number>", "<range>"
 
 
 class Allowed:
-    """The allowed values of a key. The message about a wrong value is "must be" and `words`.
+    """The allowed values of a key. A message about a wrong value is "must be", followed by `words`.
 
     Besides pydantic's checks, a list or a mapping must pass the function `test`, if one is given.
     """
@@ -126,7 +126,7 @@ def choice(meaning, *words):
 
 
 def several(item, meaning="", *, least=0, most=None, distinct=False):
-    """Return the pydantic type of lists of `least` to `most` entries, each of the type `item`."""
+    """Return the pydantic type of lists of `item`. With `distinct` no entry may occur twice."""
     words = ["a list"]
     if least == most:
         words += [f"with {least} entries"]
@@ -215,7 +215,7 @@ class Section(BaseModel):
 
 
 def parts(value, path=()):
-    """Yield a pair for each `Section` inside a value: the keys that lead to it, and the section."""
+    """Yield a pair for each `Section` in `value`: the keys that lead to it, and the `Section`."""
     if isinstance(value, Section):
         yield path, value
         for key in type(value).model_fields:

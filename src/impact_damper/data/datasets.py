@@ -205,7 +205,7 @@ def oscillator_of(data) -> Oscillator:
 
 
 def damper_of(data, **others) -> Damper:
-    """Return the damper of a dataset, with the fields `others`, which vary over the dataset."""
+    """Return the damper of a dataset. `others` are fields that the dataset's parameters lack."""
     return Damper(**pick(Damper, parameters_of(data)), **others)
 
 

@@ -10,9 +10,9 @@ NAMES = {value: name for name, value in OUTCOME.items()}
 
 
 class Family(NamedTuple):
-    """A motion found at some parameter values of a sweep. `starts` random starts lead to it.
+    """A motion in a sweep of a parameter. `starts` is the number of random starts that lead to it.
 
-    places[i, j] is True if the sweep lists this motion in column j at the parameter value i.
+    places[i, j] is True if motion number j at the i-th parameter value of the sweep is this motion.
     """
 
     outcome: str

@@ -34,12 +34,12 @@ DETUNINGS = (-0.1, 0.0, 0.1)
 def absorber_responses(
     machine, mass, frequencies, force_shares=SHARES, *, detunings=DETUNINGS, band=None, own=None
 ):
-    """Return a dataset of displacements (mm): no absorber, a tuned absorber, the absorber `own`.
+    """Return a dataset of displacements (mm) of a machine without absorber, and with two absorbers.
 
-    The tuned absorber has the mass `mass` (kg) and the lowest peak over `band` (Hz). `own` is a
-    `TunedAbsorber` or None. `frequencies` are in Hz. The excitation is multiplied by each number in
-    `force_shares`. The stiffness of both absorbers is changed by each of the fractions `detunings`.
-    For a machine without linear stiffness, displacements with the tuned absorber are NaN.
+    One absorber is tuned: with its mass `mass` (kg) it gives the lowest peak over `band` (Hz). The
+    other is `own`, a `TunedAbsorber` or None. Displacements are at `frequencies` (Hz), for the
+    excitation times each of `force_shares`, with the stiffness of the absorber changed by each of
+    the fractions `detunings`. Without a linear spring the tuned absorber has displacements NaN.
     """
     names = COMPETITORS[: 2 if own is None else 3]
     sizes = np.full((len(names), len(detunings), len(frequencies), len(force_shares)), np.nan)
@@ -130,7 +130,6 @@ def _dynamics(machine, absorber, frequencies):
 
 
 def _amplitude(oscillator, stiffness, force):
-    """Return the largest stable solution a of |stiffness + (3/4) k3 a^2| a = force, or infinity."""
     hardening = oscillator.hardening
     if hardening == 0:
         return force / abs(stiffness)

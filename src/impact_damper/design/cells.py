@@ -73,7 +73,7 @@ class Motions:
 
     Attributes
     ----------
-    parameters : array, shape (m, packed.COUNT)
+    parameters : packed parameters of each cell, shape (m, packed.COUNT)
     records : array of records.MOTION, shape (m, n)
         Result of each motion's first run. This run ends when the motion settles, or at a limit.
     states : array, shape (m, n, 4)
@@ -161,7 +161,7 @@ class Motions:
         return found
 
     def grows(self, k) -> bool:
-        """Return whether motions of cell k still reach new peaks after MOST_POOLED cycles."""
+        """Return whether motions of cell k reach new peaks even after MOST_POOLED cycles in all."""
         results = [self.measured(k, regime) for regime in self.regimes(k)]
         return any(known and not tested for _, known, tested in results)
 
@@ -186,8 +186,8 @@ class Motions:
     def follow(self, k, regime) -> None:
         """Double the number of blocks that the motions of cell k in `regime` (indices) have run.
 
-        If no block (see BLOCK) was run so far, all motions together run at least POOLED/2 cycles.
-        Displacements from earlier cycles are then dropped: they may belong to transients.
+        If these motions have not run a block (see BLOCK), they run at least POOLED/2 cycles in all.
+        Displacements before the first block are dropped: they may belong to transients.
         """
         loud = regime[~self._settle(k, regime)]
         if not len(loud):

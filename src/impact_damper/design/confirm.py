@@ -31,7 +31,7 @@ class Tried(NamedTuple):
 
     @property
     def harmful(self) -> np.ndarray:
-        """The nominal and the worst set of factors, with 1 as the factor of the gap in both."""
+        """Sets of factors: the nominal set, and the worst set with 1 as the factor of the gap."""
         worst = self.promise.sets[self.promise.worst[0]].copy()
         worst[0] = 1
         return np.unique([NOMINAL, worst], axis=0)
@@ -180,7 +180,7 @@ def conclude(task, found, curve, status) -> xr.Dataset:
 
 
 def rivals(task) -> xr.Dataset:
-    """Return the largest displacement (mm) with each of three absorbers in place of the damper."""
+    """Return largest displacements (mm) with a tuned, a detuned and the given absorber."""
     names = ("tuned_displacement", "detuned_displacement", "own_absorber_displacement")
     values = dict.fromkeys(names, np.nan)
     given = task.machine, task.mass, task.grid, [1.0]

@@ -180,7 +180,7 @@ def evaluate_damper(
 
 
 def answer(task, decide, title, folder, progress) -> xr.Dataset:
-    """Return one dataset: the decision, computed by `decide`, and the results of ADDITIONS."""
+    """Return one dataset: the decision, computed by `decide`, and all results that follow it."""
     step = Steps(folder, progress, task.describe()).step
     decision = step("decision", decide, task)
     parts, status = [decision], []
@@ -211,7 +211,7 @@ def answer(task, decide, title, folder, progress) -> xr.Dataset:
 class Steps:
     """Runs the steps of a design. If a folder is given, each step saves its dataset there.
 
-    A later run reads this dataset if `inputs` (values of the task) and source files are unchanged.
+    A later run reads this dataset if `inputs` (the task) and the library's code are unchanged.
     """
 
     def __init__(self, folder, progress, inputs):

@@ -1,4 +1,4 @@
-"""Design for migration: gaps and frequencies at which a release leads to the small free motion."""
+"""Gaps and frequencies at which switching the damper off leads to the small free motion."""
 
 import json
 

@@ -17,8 +17,7 @@ CORNERS = 8  # largest number of corners. In a corner each value is at one end o
 # the fraction PEAK. A parabola through the largest bound and the bounds at both neighbouring
 # frequencies has a maximum that exceeds the largest bound by at most the fraction PEAK.
 NEAR, PEAK, SPLITS = 0.9, 0.01, 4
-# At first the nominal set has n frequencies (all of a grid), the other sets max(n/2, FEWEST).
-FEWEST = 9
+FEWEST = 9  # least number of frequencies with which a set other than the nominal one begins
 # A cell has rare motions if its bound exceeds RARE x the largest usual displacement of all cells.
 # Such cells are run again with MORE x as many starts, in groups of SOME cells. Groups with larger
 # bounds come first. Let b be the least old bound in a group. If a new bound in this group exceeds
@@ -163,7 +162,7 @@ def factor_sets(task, gap) -> np.ndarray:
     """Return the sets of factors to be run at a gap (mm), one in each row.
 
     In the first set all factors are 1. In the next two sets only the gap is at an end of its
-    tolerance. The remaining sets are corners (see CORNERS). A set that would repeat is left out.
+    tolerance. The remaining sets are corners (see CORNERS). Repeated sets are left out.
     """
     widths = task.deviations(gap)
     signs = [(-1, 1) if width else (0,) for width in widths]

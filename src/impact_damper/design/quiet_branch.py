@@ -37,7 +37,7 @@ def quiet_orbit(task, gap, frequency) -> Orbit | None:
 
 
 def over_gap(task, gap, frequency, orbit, cliff) -> xr.Dataset:
-    """Return a dataset of the branch of `orbit` over the gap. `cliff` is a gap (mm) or infinite."""
+    """Return the branch of `orbit` over the gap. `cliff`: gap (mm) of the basin cliff, or inf."""
     gaps = sizes = moduli = np.empty(0)
     if orbit is not None:
         oscillator, damper, turning = task.system(1e-3 * gap, frequency)

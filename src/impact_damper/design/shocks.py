@@ -16,7 +16,7 @@ from impact_damper.model.packed import FREQUENCY
 SHOCKS, WIDEST = 32, 2.0
 # A motion runs for LONGEST cycles. Its peak is found in each block of BLOCK cycles.
 LONGEST, BLOCK = 1000, 10
-LIMITS = (10, 30, 100, 300, 1000 - BLOCK)  # cycles within which starts of `returned_share` return
+LIMITS = (10, 30, 100, 300, 1000 - BLOCK)  # cycles after which returned starts are counted
 
 
 def shocks(task, decision, progress=None) -> xr.Dataset:
@@ -40,7 +40,7 @@ def shocks(task, decision, progress=None) -> xr.Dataset:
     drawn = draw_starts(task, [cell], task.effort.starts, ("shocks", 1))[0]
     starts = convergence_times(task, p, drawn, promised)
     critical = np.abs(changes)[np.isinf(returned)].min(initial=np.inf)
-    # After the impulse `critical` the motion does not return. Try slightly smaller impulses.
+    # Impulses of the size `critical` are too large. Try slightly smaller impulses.
     first = changes[np.isinf(returned) & (np.abs(changes) <= critical)]
     steps = most / SHOCKS * np.arange(SHOCKS) / SHOCKS
     fine = (first[:, None] - np.sign(first)[:, None] * steps).ravel()

@@ -81,7 +81,7 @@ class Effort:
     frequencies : int
         Number of frequencies over the band. Each resonance replaces the nearest frequency.
     candidates : int
-        Largest number of gaps in each round of the search after the first round.
+        Largest number of gaps in each round that follows the first search over all gaps.
     starts : int
         Number of random starts (initial states) with which a gap is confirmed at each frequency.
     seed : int
@@ -343,7 +343,7 @@ class Task:
     def few(self, count, *others) -> np.ndarray:
         """Return `count` evenly spread frequencies of `grid`, and further frequencies (Hz).
 
-        The further frequencies are `worst_frequency`, `resonances` and `others`. None occurs twice.
+        The further ones are `worst_frequency`, `resonances`, `others`. No frequency occurs twice.
         """
         places = np.linspace(0, len(self.grid) - 1, count).round().astype(int)
         resonances = np.intersect1d(self.grid, self.resonances)

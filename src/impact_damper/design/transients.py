@@ -39,10 +39,10 @@ STEEPEST = 0.01  # largest relative change of the frequency of a sweep in a forc
 # Before each sweep, with or without the damper, the first frequency is held for the time in which a
 # vibration of the machine alone would decay to SETTLED x its amplitude, but at most HELD cycles.
 SETTLED, HELD = 0.01, 10**5
-# An unforced decay begins at a displacement A. It ends when the energy of machine and loose mass is
-# at most the energy of the machine alone at the displacement REST x A, or after MOST_WINDOWS
-# windows. A window of time is one period of the unforced vibration of the machine. With a softening
-# spring a window is at most LONGEST periods of small vibrations.
+# An unforced decay is computed in windows of time. A window is one period of the machine's unforced
+# vibration, but with a softening spring at most LONGEST periods of small vibrations. A decay begins
+# at a displacement A. It ends when the energy of machine and loose mass is at most the energy of
+# the machine alone at the displacement REST x A, or after MOST_WINDOWS windows.
 REST, MOST_WINDOWS, LONGEST = 1e-3, 10**4, 2.0
 
 
@@ -91,7 +91,7 @@ def sweep_periods(first, slope, count):
     """Return the beginning (s) and the mean frequency (Hz) of each cycle of a continuous sweep.
 
     At the time t the frequency is f0 + s t, and the phase in cycles is f0 t + s t^2/2. f0 (Hz) is
-    `first`, s (Hz/s) is `slope`. `count` cycles begin where the phase is a whole number.
+    `first`, s (Hz/s) is `slope`. Each of `count` cycles begins when this phase is a whole number.
     """
     phases = np.arange(count + 1)
     times = 2 * phases / (first + np.sqrt(first**2 + 2 * slope * phases))
@@ -99,7 +99,7 @@ def sweep_periods(first, slope, count):
 
 
 def forced(machine, damper, frequencies):
-    """Return packed parameters of machine and damper at n frequencies (Hz), shape (n, COUNT)."""
+    """Return packed parameters of machine and damper, a row for each of `frequencies` (Hz)."""
     scales = machine.scales
     scaled = None if damper is None else damper.scaled(scales)
     for end in (frequencies.max(), frequencies.min()):
@@ -156,7 +156,7 @@ def decay(machine, damper, displacement):
 def lowest_energy(p, y) -> float:
     """Return the energy of machine and loose mass at rest.
 
-    Gravity puts the loose mass on a wall, unless friction holds the loose mass in the state `y`.
+    The loose mass rests where friction holds it in the state `y`, or else where gravity puts it.
     """
     if not p[INVERSE_MASS_RATIO]:
         return 0.0
@@ -177,9 +177,10 @@ def _window(p, left):
 
 
 def unforced_amplitude(stiffness, cubic, stored) -> float:
-    """Return the amplitude A of x'' + a x + b x^3 = 0 at the energy a A^2/2 + b A^4/4 = `stored`.
+    """Return the largest displacement A of an unforced vibration x(t) with the energy `stored`.
 
-    a is `stiffness`, b is `cubic`. A is infinite if a softening spring cannot store the energy.
+    Here x'' + a x + b x^3 = 0, where a is `stiffness` and b is `cubic`. The energy is
+    a A^2/2 + b A^4/4. A is infinite if a softening spring cannot store this energy.
     """
     square = stiffness**2 + 4 * cubic * stored
     if square <= 0:
@@ -188,11 +189,12 @@ def unforced_amplitude(stiffness, cubic, stored) -> float:
 
 
 def unforced_period(stiffness, cubic, amplitude) -> float:
-    """Return the period of x'' + a x + b x^3 = 0 at amplitude A. a: `stiffness`, b: `cubic`.
+    """Return the period of an unforced vibration x(t) with the largest displacement A.
 
-    The motion is A cn(w t | m), where cn is Jacobi's function, w^2 = a + b A^2, m = b A^2/(2 w^2).
-    The period is 4 K(m)/w, or infinite if w^2 <= 0. K is the complete elliptic integral of the
-    first kind. (A. H. Nayfeh and D. T. Mook, Nonlinear Oscillations, 1979, section 2.1.)
+    Here x'' + a x + b x^3 = 0; a is `stiffness`, b is `cubic`, A is `amplitude`. With
+    w^2 = a + b A^2 and m = b A^2/(2 w^2) the period is 4 K(m)/w, or infinite if w^2 <= 0. K is the
+    complete elliptic integral of the first kind. (A. H. Nayfeh and D. T. Mook, Nonlinear
+    Oscillations, 1979, section 2.1.)
     """
     square = stiffness + cubic * amplitude**2
     if square <= 0:
