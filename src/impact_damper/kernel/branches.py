@@ -63,10 +63,10 @@ def number(x):
 
 
 def template(function, caller):
-    """Return a function that executes the template `function`. Kernels can call it.
+    """Return a function that executes the template `function`, and that kernels can call.
 
     For example, a module sets `forcing = template(forcing, call_forcing)`. The Python function
-    `caller`, here call_forcing, only calls forcing(a). `compiling.compiled` can compile it.
+    `caller`, here call_forcing, only calls forcing(a). `compiling.compiled` can compile `caller`.
     """
 
     def generate(context, builder, signature, arguments):
@@ -228,7 +228,7 @@ class Body(ast.NodeVisitor):
         self.builder.position_at_end(after)
 
     def visit_For(self, node):
-        """Unroll a loop that has one round or whose variable is not `i`. Else loop in LLVM."""
+        """Write an LLVM loop if the variable is `i`, with several rounds. Else unroll the loop."""
         count, counter = self.visit(node.iter.args[0]), node.target.id
         if counter == "i" and count > 1:
             with cgutils.for_range(self.builder, ir.Constant(INTEGER, count)) as loop:

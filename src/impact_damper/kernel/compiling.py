@@ -144,7 +144,7 @@ def call_at(typing, address, numbers):
 
 
 class Progress(event.Listener):
-    """Prints MESSAGE once, when this package's kernels have taken PATIENCE seconds to compile."""
+    """Prints MESSAGE once, when compiling kernels has taken more than PATIENCE seconds in total."""
 
     def __init__(self):
         self.depth, self.spent, self.written = 0, 0.0, False

@@ -107,7 +107,7 @@ def coefficients(at):
 
 
 def beginning(at):
-    """Yield lines of code that must come before the lines of `motion`. `at`: see `coefficients`."""
+    """Yield lines of code that `motion` needs first. `at(name)` is code that reads a parameter."""
     yield from coefficients(at)
     yield "double = 2.0 * cubic"
     yield "s0 = cubic * x0 * x0"
@@ -126,8 +126,8 @@ def motion(order, phase, constants, across):
     push               change of Z1'' by friction (`templates.friction`)
     r1, mobility       in contact: stiffness of the walls, and 1 + 1/rm
     draw, base_cosine, base_sine     if `across` is true: see `templates.across`
-    h{k}, d{k}, e{k}   set by the lines that `constants(k)` returns. h{k} is h/k (h if k = 0), d{k}
-                       is D/k (D if k = 0). Coefficient k of the forcing is e{k} `cosine` if k is
+    h{k}, d{k}, e{k}   set by the lines that `constants(k)` returns. h{k} is DAMPING/max(k, 1), d{k}
+                       is DASHPOT/max(k, 1). Coefficient k of the forcing is e{k} `cosine` if k is
                        even, and e{k} `sine` if k is odd.
     """
     for k in range(order - 1):
@@ -149,9 +149,9 @@ def motion(order, phase, constants, across):
 def tangent(order, phase, constants):
     """Yield lines of code that compute the Taylor series of a tangent up to `order`.
 
-    A tangent is a solution of the variational equations. In the lines x0, x1, ... and q0, q1, ...
-    are the coefficients of the tangent's Z1 and of its depth. The lines read u0, u1, ..., which the
-    lines of `squares` compute. The arguments mean what they mean in `motion`.
+    A tangent is a solution of the variational equations. The variables x0, x1, ... are coefficients
+    of the tangent's Z1, and q0, q1, ... of its depth. The lines read u0, u1, ..., which the lines
+    of `squares` compute. The arguments mean what they mean in `motion`.
     """
     for k in range(order - 1):
         yield from constants(k)

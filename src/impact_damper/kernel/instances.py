@@ -177,7 +177,7 @@ class Writer:
         return f"{text}def {name}({arguments}):\n{calls}"
 
     def moving(self, phase):
-        """Return the names of a step's series: "X" (of Z1), or in contact "XQ" (also depth)."""
+        """Return "X" (the series of Z1), or in contact "XQ" (the series of Z1 and of the depth)."""
         return "XQ" if phase == "contact" else "X"
 
     def constant_series(self):
@@ -236,7 +236,7 @@ class Writer:
         return self.function(name, self._stored(lines, f"{self.moving(phase)}G"))
 
     def squares(self, phase):
-        """Return the code of a kernel that computes U (series of 3 k3 Z1^2) from X (of Z1)."""
+        """Return code of a kernel that computes the series of 3 k3 Z1^2 from the series of Z1."""
         count = self.orders[phase] - 1
         lines = list(equation.coefficients(self.at))
         lines += [f"x{k} = {self.at('X', k)}" for k in range(count)]
@@ -380,8 +380,8 @@ class Source(Writer):
             yield f"{z1} -= {force}"
 
     def _tail(self, phase):
-        # The lines set TAIL to the largest modulus of the last two terms in the series of Z1', and
-        # in contact also of the depth's rate. The terms are taken at the time t.
+        # The lines set TAIL to the largest modulus of the last two terms in the series of Z1' at
+        # the time t. In contact the last two terms of the depth's rate count too.
         last = self.orders[phase]
         yield "last = 0.0"
         for row in self.moving(phase):

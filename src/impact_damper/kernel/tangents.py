@@ -33,7 +33,7 @@ def unload_tangents(tangents, d):
 
 @kernel_only
 def step_all(count, t, longest, a, d):
-    """Do a step of a trajectory and `count` tangents. Return the step's length and final side."""
+    """Step a trajectory and `count` tangents. Return the step's length, and the side at its end."""
     before = a[SIDE]
     length, side = step_loaded(t, longest, a)
     if count > 0:

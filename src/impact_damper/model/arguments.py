@@ -29,7 +29,7 @@ PHASES = ("state_phase", "orbit_phase")
 
 
 class Model(NamedTuple):
-    """An `Oscillator`, with or without damper, forcing frequency and the `Machine` of the user."""
+    """An `Oscillator`. It may have a damper and a forcing frequency, and come from a `Machine`."""
 
     oscillator: Oscillator
     damper: Damper | None

@@ -111,7 +111,7 @@ class HertzContact:
     def stiffness(self, speed, mass) -> float:
         """Return the stiffness k (N/m) of a linear spring that could replace the contact.
 
-        An impact compresses spring and contact by the same q: k q^2 = m v^2, with q, m and v as in
-        `compression`. The spring's largest force, k q, is 4/5 of the contact's largest force.
+        An impact of the reduced mass m at the relative speed v compresses spring and contact by the
+        same q: k q^2 = m v^2. The spring's largest force is 4/5 of the contact's largest force.
         """
         return 0.8 * self.coefficient * self.compression(speed, mass) ** 0.5

@@ -12,9 +12,9 @@ from impact_damper.model.units import QUANTITIES, check_si
 COLUMN = re.compile(r"\s*([a-z]+)[\s_\[(]+([^\s\])]+)[\])]?\s*")
 FEWEST = 20
 SPRING = ("linear_stiffness", "damping", "cubic_stiffness")
-# `from_response` defines a residual R/s. Near a jump of the response s = dR/d ln a is almost 0, so
-# R is divided by (s^2 + FOLD^2)^(1/2). s depends on the fitted values. Therefore PASSES fits are
-# made in turn, each with s from the values found before it.
+# `from_response` divides the error R of the balance by s = dR/d ln a, where a is the amplitude.
+# Near a jump of the response s is almost 0, so the divisor is (s^2 + FOLD^2)^(1/2). s depends on
+# the fitted values. So PASSES fits are made in turn, each with s from the values found before.
 FOLD, PASSES = 0.1, 6
 
 

@@ -273,7 +273,7 @@ class Machine:
         """Static force (N) that stands for the excitation.
 
         It is `force`, or the mass times `base_acceleration`. If neither is given, it is the force
-        of the spring at the deflection `base_displacement`, or `unbalance` divided by the mass.
+        of the spring at the deflection `base_displacement`, or at the deflection `unbalance`/mass.
         """
         if self.force is not None:
             return self.force
@@ -356,7 +356,7 @@ def mounting(
     normal_force=None,
     friction=None,
 ) -> dict:
-    """Return a dictionary of `gravity` along the gap (m/s^2) and `friction` of a loose mass (N).
+    """Return a dictionary: `gravity` along the gap (m/s^2), `friction` (N) of the loose `mass`.
 
     `inclination` (radian, or text such as "90 deg") is the angle of the gap to the horizontal, by
     default 0. Gravity along the gap follows from it, unless `gravity` is given in its place. The

@@ -204,15 +204,15 @@ class Damper:
 
     @property
     def dashpot(self) -> float:
-        """Coefficient 2 zeta_c sqrt(r1 rm) of a wall's dashpot, equation (22) of the paper."""
+        """Coefficient 2 `contact_damping` sqrt(r1 rm) of a wall's dashpot (equation (22))."""
         return 2 * self.contact_damping * math.sqrt(self.contact_stiffness * self.mass_ratio)
 
 
 def beyond_closed_forms(oscillator, damper) -> list:
     """Return which of the parameters gravity, friction and base are not 0.
 
-    The list has a pair for each of them. The first entry of the pair is the object that has the
-    parameter, `damper` or `oscillator`. The second entry is the parameter's name.
+    The list has a pair for each parameter that is not 0. The first entry of the pair is the object
+    that has the parameter, `damper` or `oscillator`. The second entry is the parameter's name.
     """
     terms = (damper, "gravity"), (damper, "friction"), (oscillator, "base")
     return [(part, name) for part, name in terms if getattr(part, name)]

@@ -83,7 +83,7 @@ def flight_values(a):
 
 
 def penetration_values(a):
-    """Compute Z1, the depth, SWAY (see `find_sway`) and derivatives at the time T of a contact."""
+    """Compute Z1, the depth, SWAY (see `find_sway`) and their derivatives at time T in contact."""
     find_sway(a)
     contact_values(a)
 
@@ -139,15 +139,15 @@ def step_outside(a, i, t):
     slope = wall * w
     f = q + lag * slope
     rise = slope + lag * wall * (a[Z1_CURVE + i] + a[SWAY_CURVE + i])
-    # `fine` is the rounding error of q and f, including the rounding errors of Z1 and Z1'.
+    # `fine` is the rounding error of q and f (see `find_return`). Errors of Z1 and Z1' count too.
     fine = abs(a[Y0 + i]) + clearance + lag * (abs(a[Y1 + i]) + abs(slope))
     fine *= ROUNDING
     bent = bound + lag * a[JERK_BOUND + i]
-    # A contact with the wall WALL cannot begin while q or f is negative.
+    # No contact with the wall WALL begins while q or f = q + LAG q' is negative.
     deep = safe_advance(-q, slope, bound) if q <= fine else 0.0
     pressed = safe_advance(-f, rise, bent) if f <= fine else 0.0
     across = safe_advance(2.0 * clearance + q, -slope, bound)
-    # The flight begins at f = 0. If f is positive and falls at t = 0, f is a rounding error.
+    # The flight begins at f = q + LAG q' = 0. A positive f that falls at t = 0 is a rounding error.
     pushes = rise > 0.0 or (f > fine and t > 0.0)
     here = q >= -fine and f >= -fine and (q > fine or slope > 0.0) and pushes
     other = 2.0 * clearance + q <= fine and slope < 0.0

@@ -5,7 +5,7 @@ SAG = 0.13
 
 
 def loose_mass(a, i, t):
-    """Return Z2 and Z2' in flight at time t. Z2 - Z1 is linear in t, plus SWAY (`find_sway`)."""
+    """Return Z2 and Z2' at time t of a flight. Z2 - Z1 - SWAY (see `find_sway`) is linear in t."""
     drift = a[Y3 + i] - a[Y1 + i]
     place = a[Z1 + i] + (a[Y2 + i] - a[Y0 + i]) + drift * t
     return place + a[SWAY + i], a[Z1_SLOPE + i] + drift + a[SWAY_SLOPE + i]
@@ -80,7 +80,7 @@ def find_contact(a):
       are more than `sag` away from this wall. Z2 as a function of time deviates by at most `sag`
       from the straight line between both values.
     - `left` is true if a lower bound on the distance to the wall behind is positive. The bound is
-      the mean of two others, from the straight line, and from `change` and Z2' at the beginning.
+      the mean of two others: one from the straight line, one from Z2' at the beginning.
     - `certain` is true if a lower bound on the speed towards the wall ahead is positive. The bound
       is the mean of two others, which follow from `change` and Z2' at the beginning or at the end.
     """

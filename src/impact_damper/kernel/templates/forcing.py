@@ -3,7 +3,7 @@
 # QUARTER + QUARTER_REST is pi/2. QUARTER has few binary digits, so that its multiples are exact.
 QUARTER = 1.5707963267341256
 QUARTER_REST = 6.077100506506192e-11
-# If the phase W t has changed by less than NEAR (rad), `forcing` uses a Taylor series of order 3.
+# `forcing` updates COSINE and SINE by a Taylor series if W t has changed by less than NEAR (rad).
 NEAR = 1e-4
 
 

@@ -68,7 +68,7 @@ def let_go(a):
 
 
 def load_rates(a):
-    """With one lane, compute the series H and D again after DAMPING and DASHPOT have changed."""
+    """If LANES is 1, compute H (DAMPING/k) and D (DASHPOT/k) for new DAMPING and DASHPOT."""
     if LANES == 1:
         for k in range(max(FLIGHT_ORDER, CONTACT_ORDER) - 1):
             a[H + k] = a[DAMPING] * (1.0 / max(k, 1))
@@ -76,7 +76,7 @@ def load_rates(a):
 
 
 def series_held(a, touching):
-    """Compute the Taylor series of a step in which the loose mass sticks in at least one lane."""
+    """Compute a step's Taylor series if a loose mass sticks. `touching`: the step is in contact."""
     hold(a)
     for i in range(LANES):
         inverse = a[INVERSE_MASS_RATIO + i]
@@ -128,7 +128,7 @@ def find_turn(a, touching):
 
 
 def step_to_turn(a, i, touching):
-    """Continue the search of `find_turn` in lane i: move T to the next time, or end the search."""
+    """Continue `find_turn` in lane i: move T, or end the search. `touching`: in contact."""
     t, bound = a[T + i], a[BOUND + i]
     stuck = a[STUCK + i] > 0.0
     if touching:
@@ -175,7 +175,7 @@ def wall_force_held(a, i):
 
 
 def end_turn(a):
-    """Set Z2' to 0 if the loose mass rests. If it begins to slide, give Z2' the sign of sliding."""
+    """Set Z2' to 0 if the loose mass stands still, and to TINY * SLIDE if it begins to slide."""
     for i in range(LANES):
         slipped = a[STUCK + i] > 0.0 and a[MODE + i] == TURNED
         held = a[STUCK + i] > 0.0 and not slipped

@@ -1,7 +1,7 @@
 """Template (see `step`): search for the first root of an event function f(t) within a step.
 
 In flight f is the distance of the loose mass to a wall. A contact begins at the root of f. In
-contact f is q + LAG q' (`separation`). The contact ends at the root of f. Values of the row MODE:
+contact f is q + LAG q', and q is the depth. The contact ends at the root of f. Values of MODE:
 
     MARCH     several roots are possible. The search advances by times within which f, because of a
               bound on |f''|, cannot reach zero. So the search never passes the first root.
@@ -111,7 +111,7 @@ def store_end(a, i, row, end, move, going):
 
 
 def store_search(a, i, mode, t, move):
-    """Store T, MODE, Z1 and Z1' of lane i after a move. Return 1 if the search goes on, else 0."""
+    """Store t, `mode`, Z1, Z1' (extrapolated by `move`). Return 1 if the search goes on, else 0."""
     going = a[MODE + i] <= ENDING
     a[T + i] = t
     a[MODE + i] = mode

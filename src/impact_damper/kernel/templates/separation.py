@@ -8,8 +8,8 @@ LAG = 0 (the paper's rule) the wall may pull. With LAG = DASHPOT / CONTACT_STIFF
 # beginning of the step, LONGEST_RETURNING if q falls.
 LONGEST_DEEPENING, LONGEST_RETURNING = 0.55, 0.4
 # `find_separation` defines a phase. If this phase advances at a rate within 25 % of the natural
-# frequency, a step has at most one separation. The phase then advances by less than 0.55 * 1.25 <
-# 3/4 revolution if the depth q grows at the beginning, else by less than 0.4 * 1.25 = 1/2.
+# frequency, a step has at most one separation. In a step the phase then advances by less than
+# 0.55 * 1.25 < 3/4 revolution if the depth grows at first, else by less than 0.4 * 1.25 = 1/2.
 PHASE_MARGIN = 0.25
 
 
@@ -129,7 +129,7 @@ def find_separation(a):
 
 
 def bound_lagging(a):
-    """Turn BOUND, an upper bound on |q''|, into an upper bound on |q'' + LAG q'''|."""
+    """Turn BOUND, an upper bound on |q''|, into one on |q'' + LAG q'''|. q is the depth."""
     lagging = 0
     for i in range(LANES):
         lagging += 1 if a[LAG + i] > 0.0 else 0
