@@ -228,7 +228,7 @@ class Body(ast.NodeVisitor):
         self.builder.position_at_end(after)
 
     def visit_For(self, node):
-        """Write an LLVM loop if the variable is `i`, with several rounds. Else unroll the loop."""
+        """Unroll the loop. But a loop over `i` with several rounds becomes an LLVM loop."""
         count, counter = self.visit(node.iter.args[0]), node.target.id
         if counter == "i" and count > 1:
             with cgutils.for_range(self.builder, ir.Constant(INTEGER, count)) as loop:

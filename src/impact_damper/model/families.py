@@ -31,7 +31,7 @@ def read_followed(model, parameter, span) -> tuple:
     """Check `parameter` and `span`. Return the key in PARAMETERS and the dimensionless span.
 
     `parameter` is a key in PARAMETERS or, for a machine, the name that `facts_of` returns. For
-    example, "clearance" is "gap" for a machine. The parameter of `model` must lie in the span.
+    example, "clearance" is "gap" for a machine. The span must contain the value in `model`.
     """
     scales, damper = model.scales, model.damper
     names = {facts_of(name)[0] if scales.si else name: name for name in PARAMETERS}

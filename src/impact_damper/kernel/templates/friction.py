@@ -68,7 +68,7 @@ def let_go(a):
 
 
 def load_rates(a):
-    """If LANES is 1, compute H (DAMPING/k) and D (DASHPOT/k) for new DAMPING and DASHPOT."""
+    """If LANES is 1, compute H = DAMPING/k and D = DASHPOT/k after DAMPING or DASHPOT changed."""
     if LANES == 1:
         for k in range(max(FLIGHT_ORDER, CONTACT_ORDER) - 1):
             a[H + k] = a[DAMPING] * (1.0 / max(k, 1))
@@ -76,7 +76,7 @@ def load_rates(a):
 
 
 def series_held(a, touching):
-    """Compute a step's Taylor series if a loose mass sticks. `touching`: the step is in contact."""
+    """Compute a step's Taylor series if a loose mass sticks. In contact `touching` is true."""
     hold(a)
     for i in range(LANES):
         inverse = a[INVERSE_MASS_RATIO + i]
@@ -128,7 +128,7 @@ def find_turn(a, touching):
 
 
 def step_to_turn(a, i, touching):
-    """Continue `find_turn` in lane i: move T, or end the search. `touching`: in contact."""
+    """Continue `find_turn` in lane i: move T, or end the search. In contact `touching` is true."""
     t, bound = a[T + i], a[BOUND + i]
     stuck = a[STUCK + i] > 0.0
     if touching:
