@@ -2,8 +2,8 @@
 
 Without a damper the boundaries of basins are curves of states: the stable manifolds of unstable
 orbits. From a state on the stable manifold of an orbit the motion tends to this orbit. The curves
-are computed backwards in time, because errors then decrease. `window` holds the largest |Z1| and
-|Z1'| of states that are stored, `reach` the largest |Z1| and |Z1'| of states that are computed.
+are computed backwards in time, because errors then decrease. `window` is a pair of bounds on the
+moduli of Z1 and Z1' in states that are stored, `reach` a pair for states that are computed.
 The names *convergence time*, *finite-time basin stability* and *minimal critical shock* come from
 Attractors.jl, version 2 (StabilityQuantifiersAccumulator).
 """
@@ -123,8 +123,8 @@ def basins(
         For each attractor: the period, the largest displacement, Z1 and Z1' at `phase`, and
 
         - the share of states that lead to the attractor, and their median convergence time;
-        - with `shock`: the longest convergence time after +shock and -shock, from each state of the
-          attractor at `phase`. It is infinite if a motion does not return;
+        - with `shock`: the longest convergence time after an impulse of +shock or -shock on a state
+          of the attractor at `phase`. It is infinite if a motion does not return;
         - the finite-time basin stability: the share of states from which motions reach the
           attractor in `within` cycles;
         - the minimal critical shock: the smallest impulse at `phase` after which the motion does
@@ -292,11 +292,11 @@ NEAR = 1e-5
 # A stable manifold is computed on each side of its saddle from FIRST_POINTS states. They are
 # followed backwards in time over at most MOST_PERIODS forcing cycles. In each cycle, new states are
 # inserted at most MOST_HALVINGS times between neighbouring states that are too far apart. A side is
-# given up when it has more than MOST_POINTS states in `window`, or MOST_IN_ALL states in `reach`.
+# cut short when more than MOST_POINTS states are stored, or more than MOST_IN_ALL are computed.
 MOST_PERIODS, MOST_POINTS, MOST_IN_ALL, MOST_HALVINGS = 60, 40_000, 100_000, 12
 FIRST_POINTS = 33
-# Neighbouring states of a manifold differ by at most `spacing` in Z1 and Z1' (`spacing` is the size
-# of a cell of the plane), but outside `window` by at most OUTSIDE x `reach`.
+# Neighbouring states of a manifold differ in Z1 and Z1' by at most one cell of the plane. States
+# that are not stored may differ by OUTSIDE x the largest |Z1| and |Z1'| that are computed.
 OUTSIDE = 0.01
 # Two orbits are the same if their states differ by less than SAME.
 SAME = 1e-6
@@ -305,7 +305,7 @@ CHUNK = 4096
 
 
 def saddles(p, states, periods, phase):
-    """Return saddles (unstable orbits). Newton's method tries each period from each state."""
+    """Return the unstable orbits of given `periods` that Newton's method finds from `states`."""
     orbits, known = [], np.empty((0, 2))
     for n in sorted(set(periods)):
         for state in states:
@@ -339,7 +339,7 @@ def run_backwards(p, states, phase, tolerance, reach):
 
 
 def stable_manifold(orbit, tolerance, window, spacing, reach):
-    """Return the curves of a saddle's stable manifold, and whether all extend to `reach`."""
+    """Return the curves of a saddle's stable manifold, and whether none of them was cut short."""
     values, vectors = np.linalg.eig(orbit.monodromy[:2, :2])
     k = int(np.argmin(np.abs(values)))
     direction = vectors[:, k].real / np.linalg.norm(vectors[:, k].real)
@@ -396,7 +396,7 @@ SHOCKS = (256, 64, 64, 64)
 
 
 def robustness(p, found, phase, widest, shock, within) -> dict:
-    """Return dataset variables with a value for each attractor of the `Labelled` plane `found`.
+    """Return dataset variables that hold a number for each attractor. `found` is a `Labelled`.
 
     attractor_time: Median convergence time of the states of the plane that lead to the attractor.
     attractor_within: Share of all states of the plane that lead to it within `within` cycles.

@@ -11,7 +11,7 @@ from impact_damper.orbits.continuation import Point, point_at_distance
 
 # The place of a bifurcation on a step is found to within FINE times the length of the step.
 FINE = 1e-3
-# The place at which contacts change is found to within PLACE times max(1, length of the step).
+# The place at which the order of contacts changes has an error below PLACE x max(1, step length).
 PLACE = 1e-12
 # A multiplier counts as complex if its imaginary part exceeds COMPLEX in modulus.
 COMPLEX = 1e-6
@@ -43,8 +43,8 @@ class Event(NamedTuple):
 def _reversal(point, symmetric):
     """Return a number that is zero where one of `Orbit.cycle_multipliers` is -1.
 
-    There a symmetric orbit loses its symmetry, and an asymmetric orbit doubles its period. The
-    number is 1 for asymmetric orbits if `symmetric` is True, for symmetric orbits if it is False.
+    There a symmetric orbit loses its symmetry, and an asymmetric orbit doubles its period.
+    `symmetric` selects one of these two sorts of orbits. An orbit of the other sort gives 1.
     """
     orbit = point.orbit
     return _product(orbit.cycle_multipliers + 1) if (orbit.sign < 0) == symmetric else 1.0

@@ -38,7 +38,7 @@ CLEAR_STEP = 1e-4
 class Branch:
     """A branch of orbits. `family(value)` is the array `p` of all parameters for a point's `value`.
 
-    events: Pairs of the index in `points` of the event's point, and the event.
+    events: Pairs (k, event), where points[k] is the point of the event.
     lost: Number of events that were not located.
     ends: Two words that say why the branch ends at its first and at its last point. "range_ends":
     The parameter is at the end of its range. "closed": The branch is a closed curve. "unstable":
@@ -202,7 +202,7 @@ def _next_pieces(point, span, length, search):
         return [], 0.5, search
     along = (point.problem.metric * (ahead.x - point.x)) @ point.tangent
     located, missed = events_between(point, ahead, along)
-    # A branch that ends at a more symmetric branch has a fold there.
+    # If the deviation changes sign on the step, the branch has met a more symmetric one at a fold.
     crosses = point.orbit.deviation @ ahead.orbit.deviation < 0
     unseen = crosses and not any(event.kind == "fold" for event in located)
     if length > CLEAR_STEP and (missed or unseen):

@@ -160,7 +160,7 @@ def _quiet_motions(data, clearances, rule):
     rows, anchor = np.flatnonzero(quiet.any(axis=1)), None
     if len(rows):
         anchor = rows[np.argmin(np.abs(np.log(clearances[rows] / rule)))]
-        # Keep one branch of quiet orbits: that of the smallest one at clearances[anchor].
+        # Keep only the branch of the smallest quiet orbit at clearances[anchor].
         quiet &= table["branch"] == table["branch"][anchor, np.nanargmin(size[anchor])]
     column, row = np.argmax(quiet, axis=1), np.arange(len(clearances))
     sizes = np.where(quiet.any(axis=1), size[row, column], np.nan)
@@ -249,7 +249,7 @@ def _stationary(size_at, best):
 
 
 def _kind(size_at, best, least, longest):
-    # At half the distance from `best`, the rise is a quarter for a smooth minimum, half for a kink.
+    # Half as far from `best`, max |Z1| rises 1/4 as much (smooth minimum) or 1/2 as much (kink).
     steps = longest, longest / 2
     rises = [size_at(best + step) + size_at(best - step) - 2 * least for step in steps]
     return "kink" if rises[1] > 0.36 * rises[0] else "smooth"

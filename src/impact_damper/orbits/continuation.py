@@ -22,8 +22,8 @@ NEWTON, LARGEST = 10, 0.5
 # A correction is the largest change of an unknown in one iteration. Newton's method has converged
 # if the residual is as small as a rounding error and one of these is true:
 # - The correction before the last one is below SURE.
-# - d(`Orbit.defects`)/d(parameter) is up to date, and the last correction is below CLOSE. If it is
-#   more than half of the correction before it, the bound is ROUNDING instead.
+# - d(`Orbit.defects`)/d(parameter) is up to date, and the last correction is below CLOSE. ROUNDING
+#   replaces CLOSE if the last correction is more than half of the correction before it.
 # The method fails if a correction exceeds both SURE and SHRINKING times the correction before it.
 CLOSE, ROUNDING, SURE, SHRINKING = 1e-10, 1e-4, 1e-6, 0.7
 # The derivative of `Orbit.defects` by the parameter is expensive. It is updated only if Newton's
@@ -150,7 +150,7 @@ class Problem:
         return change / (2 * NUDGE)
 
     def rows(self, x, orbit):
-        """Return the derivative of `Orbit.defects` by the unknowns, shape (m n, m n + 1)."""
+        """Return the derivative of `Orbit.defects` by the unknowns: a row for each component."""
         slopes = self._slopes(orbit, self.rate(x[-1]))
         factors = orbit.factors[:, : self.size, : self.size]
         return np.column_stack([segments.cyclic(factors), slopes.ravel()])
@@ -205,7 +205,7 @@ class Problem:
         return np.linalg.lstsq(matrix, right, SINGULAR)[0]
 
     def near(self, x, border, length):
-        """Return the point that `correct` finds from x, or None if it is too far from x."""
+        """Return the point that `correct` finds, or None if it is far from x, compared with `length`."""
         aside = ASIDE * abs(length) + min(ROUNDING, abs(length))
         point = self.correct(x, border, FAILING * aside)
         return None if point is None or self.length(point.x - x) > aside else point
@@ -270,9 +270,9 @@ def _cubic(point, ahead, fraction):
 # SKEW: length of the difference of two unit vectors. One has the direction from the first to the
 # last point of the step, the other the direction of the mean of the two tangents.
 TURNED, SKEW = 0.5, 0.03
-# The next step is made so long that its angle (see TURNED) is expected to be AIM x TURNED or less.
-# It is at most GROWTH times as long as the step before. After a rejected step it is at least
-# SHRINKAGE times as long as the rejected step.
+# The next step is made so long that the angle between the tangents at its two ends is expected to
+# be AIM x TURNED or less. A step is at most GROWTH times as long as the step before. After a
+# rejected step it is at least SHRINKAGE times as long as the rejected step.
 AIM, GROWTH, SHRINKAGE = 0.65, 1.5, 0.3
 
 
@@ -311,7 +311,7 @@ def with_bend(point, ahead):
 
 
 def folds_twice(point, ahead):
-    """Return whether a cubic curve that touches the branch at both points has two folds between."""
+    """Return whether a cubic curve with the tangents of both points has two folds between them."""
     length = point.problem.length(ahead.x - point.x)
     first, last = length * point.tangent[-1], length * ahead.tangent[-1]
     chord = ahead.value - point.value
@@ -325,7 +325,7 @@ def folds_twice(point, ahead):
 # An orbit with several segments is divided anew if one of these is true:
 # - A segment begins closer than NEAR_SECTION (radian) to a contact.
 # - The norm of a matrix in `Orbit.factors` reaches ROUGHER times `Problem.rough`.
-# - One segment is enough, because `Orbit.amplification` is below MILD times AMPLIFYING.
+# - One segment is enough, because `Orbit.amplification` is below MILD x `shooting.AMPLIFYING`.
 NEAR_SECTION, ROUGHER, MILD = 0.02, 4.0, 0.5
 
 

@@ -22,7 +22,7 @@ RATIO, LEAST, MOST = 10.0, 1e-13, 2e-5
 # If a step between two heights |Z2| - d0 fails, a height between them is tried first. This is done
 # at most HALVINGS times in each grazing, and HALVINGS_BETWEEN times in a row in `Passage.between`.
 HALVINGS, HALVINGS_BETWEEN = 8, 3
-# A step led to a more symmetric branch if max |`Orbit.deviation`| fell to FALLEN x its old value.
+# A step that multiplies max |`Orbit.deviation`| by less than this led to a more symmetric branch.
 FALLEN = 0.01
 # If contacts vanish in a grazing, the branch is computed at two points on the side without them. At
 # these points the extremum of Z2 is BESIDE[0] and BESIDE[1] away from the wall.
@@ -64,9 +64,9 @@ def at_height(problem, x, turn, height, direction):
 class Passage(NamedTuple):
     """Points of a branch through a grazing.
 
-    `heights` and `turns` hold for each point the height |Z2| - d0 of the extremum that grazes, and
-    this extremum. Orbits have more contacts on one side of the grazing. On this side
-    points[grazing] is the point closest to the grazing. `kind` is as in `bifurcations.Event`.
+    turns[k] is the extremum that grazes, on the orbit of points[k]. heights[k] is its |Z2| - d0.
+    Orbits have more contacts on one side of the grazing. On this side points[grazing] is the point
+    closest to the grazing. `kind` is as in `bifurcations.Event`.
     """
 
     points: list
@@ -76,7 +76,7 @@ class Passage(NamedTuple):
     kind: str
 
     def between(self, k):
-        """Return a function that finds the point at a height from heights[k] to heights[k + 1]."""
+        """Return a function that finds points between points[k] and points[k + 1] by their height."""
         known = [(self.heights[end], self.points[end], self.turns[end]) for end in (k, k + 1)]
         direction = np.sign(self.heights[k + 1] - self.heights[k])
 
@@ -134,7 +134,7 @@ def _along(point, turn, targets, direction, contacts):
         ratio = target / heights[-1]
         x = guess(points[-1], turns[-1], target)
         found = at_height(point.problem, x, turns[-1], target, direction)
-        # An orbit with another number of contacts lies on another branch.
+        # An orbit without the expected number of contacts lies on another branch.
         stays = found is not None and len(found[0].orbit.sequence) == contacts(target)
         if stays and ratio > 0:
             sizes = [np.max(np.abs(each.orbit.deviation)) for each in (points[-1], found[0])]
@@ -175,7 +175,7 @@ class Turn(NamedTuple):
     """An extremum of Z2 on an orbit: index of the segment, phase W T, and height |Z2| - d0.
 
     `outer` is True for a maximum of |Z2|. `gradient` is the derivative of the height by the
-    unknowns (see `continuation.Point`), shape (4 m + 1,), or None before it is computed.
+    unknowns `continuation.Point.x`, or None before it is computed.
     """
 
     segment: int

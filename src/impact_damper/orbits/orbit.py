@@ -96,7 +96,7 @@ class Orbit:
 
     @cached_property
     def matrix(self):
-        """Derivative of the last state, times `sign`, by the first state, shape (4, 4)."""
+        """`sign` times the derivative of the last state by the first state, shape (4, 4)."""
         return reduce(lambda product, factor: factor @ product, self.factors)
 
     @property
@@ -106,7 +106,7 @@ class Orbit:
 
     @property
     def amplification(self):
-        """Largest factor by which a disturbance of the first state grows up to the last state."""
+        """Largest factor by which a disturbance grows from the first state to the last state."""
         return np.linalg.norm(self.matrix, 2) if np.all(np.isfinite(self.matrix)) else np.inf
 
     @property
@@ -129,7 +129,7 @@ class Orbit:
 
     @cached_property
     def cycle_multipliers(self):
-        """Eigenvalues of `matrix`: 4 if the orbit has a contact, otherwise 2."""
+        """Eigenvalues of `Orbit.matrix`: 4 if the orbit has a contact, otherwise 2."""
         n = self.active
         return segments.multipliers(self.factors[:, :n, :n])
 
@@ -153,7 +153,7 @@ class Orbit:
 
     @cached_property
     def _surveyed(self):
-        """Contacts, largest |Z1|, and complex first harmonics of Z1 and Z2, in all segments."""
+        """Three results: contacts, largest |Z1|, and the complex first harmonics of Z1 and Z2."""
         states, phases = self.states.copy(), self.phases
         if side_of(self.p, states[0]) != 0:
             # The first state lies in a contact. This contact begins again shortly before the cycle
@@ -172,7 +172,7 @@ class Orbit:
 
     @cached_property
     def contacts(self):
-        """Array with a row for each contact: wall (-1 or 1), times of its two ends, Z2' at both."""
+        """A row for each contact: wall (-1 or 1), times of beginning and end, Z2' at both times."""
         log = self._surveyed[0]
         if self.sign > 0:
             return log
@@ -192,7 +192,7 @@ class Orbit:
 
     @property
     def restitution(self):
-        """Smallest of the ratios |Z2'| after / |Z2'| before a contact, NaN without contacts."""
+        """Smallest ratio of |Z2'| after a contact to |Z2'| before it, NaN without contacts."""
         before, after = np.abs(self.contacts[:, 3]), np.abs(self.contacts[:, 4])
         return np.min(after / before, initial=np.inf) if self.touching else np.nan
 
@@ -227,7 +227,7 @@ class Orbit:
 
     @cached_property
     def record(self):
-        """Record (`MOTION`) of largest |Z1|, contacts per cycle, asymmetry, first harmonics."""
+        """Record (`records.MOTION`): largest |Z1|, contacts per cycle, asymmetry, first harmonics."""
         record = np.zeros(1, records.MOTION)[0]
         _, largest, harmonics = self._surveyed
         record["maximum_displacement"] = largest
@@ -262,7 +262,7 @@ class Orbit:
         return np.min(distances, axis=-1, initial=np.inf)
 
     def flight_phase(self):
-        """Return the first phase if far from contacts, else the middle of the longest flight."""
+        """Return `phase`, or the middle of the longest flight if `phase` is too near a contact."""
         if not self.touching or self.margin(self.phase) > MARGIN:
             return self.phase
         ends = self.p[FREQUENCY] * self.contacts[:, 2]

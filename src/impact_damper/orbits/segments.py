@@ -25,12 +25,12 @@ from impact_damper.kernel.tangents import advance
 from impact_damper.model.packed import CLEARANCE, COUNT, FREQUENCY
 from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 
-# Orthogonal iteration divides the multipliers into groups of similar modulus. The multipliers of a
-# group are the eigenvalues of a small matrix. From one group to the next the modulus falls by more
-# than the factor APART.
+# Orthogonal iteration divides the multipliers into groups of similar modulus. From one group to the
+# next the modulus falls by more than the factor APART.
 APART = 30.0
-# Orthogonal iteration ends after SWEEPS passes over all segments, or if a pass changes the basis by
-# less than SETTLED. If the last pass changes the basis by COUPLED or more, groups are joined.
+# Orthogonal iteration turns a basis of states. It ends after SWEEPS passes over all segments, or if
+# a pass turns the basis by less than SETTLED. Neighbouring groups are joined if the last pass
+# turns the basis by COUPLED or more.
 SWEEPS, SETTLED, COUPLED = 14, 1e-15, 1e-8
 # If possible, a small disturbance grows by less than this factor along a segment.
 AMPLIFIED = 30.0
@@ -45,7 +45,7 @@ def run(p, state, tangents, begin, end):
 
 
 def cyclic(factors):
-    """Return d(`Orbit.defects`)/d(`Orbit.states`), (m n, m n), from `factors`, shape (m, n, n)."""
+    """Return the matrix d(`Orbit.defects`)/d(`Orbit.states`). `factors` is as in `Orbit`."""
     m, n = factors.shape[:2]
     matrix, k = np.zeros((m, n, m, n)), np.arange(m)
     matrix[k, :, k] = factors
@@ -147,7 +147,7 @@ def _sections(orbit, cycle, between):
             longest = max(longest, (high - low, middle))
     start = longest[1]
     # If `cycle` is half the period, flights half a period apart have the same phase modulo `cycle`
-    # and count once. The shift by 1e-9 keeps `start` (in the longest flight) first.
+    # and count once. The shift by 1e-9 keeps `start` first in spite of rounding errors.
     places = np.sort(start + (np.array([*middles, start]) - start + 1e-9) % cycle - 1e-9)
     places = places[np.append(True, np.diff(places) > 1e-6)]
     places = places[places < start + cycle - 1e-6]
@@ -197,9 +197,9 @@ def list_turns(p, states, phases, tolerance, turns):
 
 @kernel
 def flow_all(p, states, tangents, times, tolerance):
-    """Integrate all segments, overwriting `states`. Return the time in contact.
+    """Integrate all segments, overwriting their first `states`. Return the total time in contact.
 
-    tangents[k], shape (4, 4), receives the transposed derivative of segment k.
+    Segment k lasts from times[k] to times[k + 1]. tangents[k] receives its transposed derivative.
     """
     work, touching = workspace(), 0.0
     for k in range(len(states)):

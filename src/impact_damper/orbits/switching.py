@@ -23,8 +23,8 @@ DISTANCES, ASIDE = (2e-2, 4e-3, 8e-4, 1e-4, 1e-5), 0.5
 # extremum is chosen whose H changes by the largest percentage along the new branch. For each s in
 # SHARES a point is searched for at which H is 1 + s times its value at the bifurcation.
 # REACH: Largest distance from the bifurcation to the first guess.
-# MISSED: Largest |distance from the bifurcation to the point found / distance to the guess - 1|.
-# PASSAGES: Largest number of points found from which the branch is followed through the grazing.
+# MISSED: Largest relative difference between the distances to the first guess and to the point.
+# PASSAGES: The branch is followed through the grazing from at most this number of points.
 SHARES, MISSED, REACH, PASSAGES = (0.5, 0.2, 0.1, 0.05, 0.02), 0.5, 1e-3, 2
 # Kinds of events at which another branch begins.
 LEAVING = ("symmetry_breaking", "period_doubling")
@@ -59,8 +59,8 @@ def other_branch(event, *, stable=False) -> Point | None:
 def _leaving(event):
     point, problem = event.point, event.point.problem
     doubled = event.kind == "period_doubling"
-    # In one `problem.cycle` the state of the old orbit changes by the factor `sign`. A small
-    # deviation from the old orbit towards the new branch changes by the factor -`sign`.
+    # When W T grows by `problem.cycle`, the state of the old orbit is multiplied by `sign`. A small
+    # deviation from the old orbit towards the new branch is multiplied by -`sign`.
     sign, size = (1 if doubled else -1), 4 if problem.damped else 2
     factors = point.orbit.factors[:, :size, :size].copy()
     factors[-1] *= -1
@@ -124,9 +124,9 @@ NEAR = 1e-9
 
 
 def follow_others(branches, follow):
-    """Append to the list `branches` the branches that meet one of its branches.
+    """Append to the list `branches` each branch that meets a branch in the list.
 
-    Branches that meet the appended ones are appended too. WHOLE, STABLE and MET exclude some.
+    Do this for the appended branches too. Leave out branches that WHOLE, STABLE and MET exclude.
     `follow(orbit, value)` returns the branch through an orbit whose parameter is `value`.
     """
     for branch in branches:

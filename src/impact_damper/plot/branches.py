@@ -87,7 +87,7 @@ def followed_label(data):
 
 
 def runs(data, chosen):
-    """Yield the parts (see `parts_by_stability`) of each branch whose period `chosen` accepts."""
+    """Yield parts (see `parts_by_stability`) of the branches for which chosen(period) is true."""
     stable = data["orbit_stability"].values == flag("orbit_stability", "stable")
     value, size = data["followed_value"].values, data["orbit_displacement"].values
     for branch, period in enumerate(data["branch_period"].values):
@@ -97,7 +97,7 @@ def runs(data, chosen):
 
 
 def parts_by_stability(value, size, stable):
-    """Cut a branch where stability changes. Yield values, displacements, stability of each part."""
+    """Cut a branch where stability changes. Yield (values, displacements, stable) for each part."""
     edges = [0, *(np.flatnonzero(np.diff(stable)) + 1), len(value)]
     for first, last in zip(edges, edges[1:], strict=False):
         if last > first:

@@ -28,7 +28,7 @@ OUTCOMES = {
     "drifting": "no contact",
     "chaotic": "chaotic",
 }
-# Fraction of white in the colour of the first, the second, and any further motion of a kind.
+# Fractions of white in the colours of a kind's motions: most frequent, second, all others.
 PALER = (0.0, 0.45, 0.7)
 EDGE = {"fill": True, "edgecolor": style.WHITE, "linewidth": 0.4}
 INTERVAL = {"color": style.BLACK, "linewidth": 0.6}
@@ -86,7 +86,7 @@ def _look(kind, rank):
 
 
 def _ranked_motions(data):
-    """Return kind, rank and mask of each motion. The most frequent motion of a kind has rank 0."""
+    """List (kind, rank, mask in `data`) for all motions. Rank 0 is the most frequent of a kind."""
     found, ranks = {kind: [] for kind in LOOKS}, Counter()
     for each in families(data):
         if each.starts:

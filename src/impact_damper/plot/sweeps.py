@@ -27,8 +27,8 @@ VARIED = ("damping", "frequency", "restitution", "mass_ratio")
 def sweep(data, axes=None):
     """Draw the largest displacement of the quiet orbit against clearance, and mark the minimum.
 
-    Points show the exact orbit. Lines show the amplitude by harmonic balance. For inelastic
-    contact harmonic balance gives no optimum, and the lines join the points.
+    Points show the exact orbit. For elastic contact lines show the amplitude by harmonic balance.
+    For inelastic contact harmonic balance gives no optimum. Lines then join the points.
 
     Parameters
     ----------

@@ -290,7 +290,7 @@ def _condition(data):
     if "force_map_displacement" in data:
         shares = data["force_share"].values
         sizes = data["force_map_displacement"].max("operating_frequency").values
-        # For more than the given excitation the bound rises in proportion to the excitation.
+        # Above the given excitation, the displacement allowed is proportional to the excitation.
         kept = sizes <= KEEPS * promised * np.maximum(shares, 1)
         for step in (1, -1):
             k = int(np.argmin(np.abs(shares - 1)))
