@@ -205,7 +205,7 @@ class Problem:
         return np.linalg.lstsq(matrix, right, SINGULAR)[0]
 
     def near(self, x, border, length):
-        """Return the point that `correct` finds, or None if it is far from x, compared with `length`."""
+        """Correct the guess x after a step of `length`. Return the point, or None if far from x."""
         aside = ASIDE * abs(length) + min(ROUNDING, abs(length))
         point = self.correct(x, border, FAILING * aside)
         return None if point is None or self.length(point.x - x) > aside else point
@@ -311,7 +311,7 @@ def with_bend(point, ahead):
 
 
 def folds_twice(point, ahead):
-    """Return whether a cubic curve with the tangents of both points has two folds between them."""
+    """Return whether a cubic curve through both points, tangent to the branch, has two folds."""
     length = point.problem.length(ahead.x - point.x)
     first, last = length * point.tangent[-1], length * ahead.tangent[-1]
     chord = ahead.value - point.value

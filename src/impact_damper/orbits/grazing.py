@@ -76,7 +76,7 @@ class Passage(NamedTuple):
     kind: str
 
     def between(self, k):
-        """Return a function that finds points between points[k] and points[k + 1] by their height."""
+        """Return a function that finds the point of a given height between points k and k + 1."""
         known = [(self.heights[end], self.points[end], self.turns[end]) for end in (k, k + 1)]
         direction = np.sign(self.heights[k + 1] - self.heights[k])
 

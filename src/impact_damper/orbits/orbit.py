@@ -227,7 +227,7 @@ class Orbit:
 
     @cached_property
     def record(self):
-        """Record (`records.MOTION`): largest |Z1|, contacts per cycle, asymmetry, first harmonics."""
+        """Record (`records.MOTION`) with largest |Z1|, contacts per cycle, asymmetry, harmonics."""
         record = np.zeros(1, records.MOTION)[0]
         _, largest, harmonics = self._surveyed
         record["maximum_displacement"] = largest

@@ -29,8 +29,8 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 # next the modulus falls by more than the factor APART.
 APART = 30.0
 # Orthogonal iteration turns a basis of states. It ends after SWEEPS passes over all segments, or if
-# a pass turns the basis by less than SETTLED. Neighbouring groups are joined if the last pass
-# turns the basis by COUPLED or more.
+# a pass turns the basis by less than SETTLED. Neighbouring groups of multipliers are joined if
+# the last pass turns the basis by COUPLED or more.
 SWEEPS, SETTLED, COUPLED = 14, 1e-15, 1e-8
 # If possible, a small disturbance grows by less than this factor along a segment.
 AMPLIFIED = 30.0

@@ -31,7 +31,7 @@ def datasets_in(data, takes, words) -> list[xr.Dataset]:
 
 
 def dataset_in(data, takes, words) -> xr.Dataset:
-    """Check `data` as `datasets_in` does. Return the dataset. Several raise TypeError."""
+    """Check `data` as `datasets_in` does. Return the dataset. Several datasets raise TypeError."""
     found = datasets_in(data, takes, words)
     if len(found) > 1:
         raise TypeError(f"data = {len(found)} datasets: must be one result of {words}")

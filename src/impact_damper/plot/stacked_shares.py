@@ -86,7 +86,7 @@ def _look(kind, rank):
 
 
 def _ranked_motions(data):
-    """List (kind, rank, mask in `data`) for all motions. Rank 0 is the most frequent of a kind."""
+    """Return (kind, rank, mask) of each motion. Rank 0 is the most frequent motion of its kind."""
     found, ranks = {kind: [] for kind in LOOKS}, Counter()
     for each in families(data):
         if each.starts:
