@@ -49,7 +49,7 @@ class AllowedQuantity(Allowed):
 def quantity_of(quantity, meaning="", absolute=(), **bounds):
     """Return the pydantic type of a physical quantity within bounds.
 
-    A tolerance is a fraction, or text such as "0.2 mm" if "displacement" is listed in `absolute`.
+    If `absolute` lists other quantities, text with a unit of one of these is allowed too.
     """
     return Annotated[Any, AllowedQuantity(quantity, bounds, meaning, absolute)]
 

@@ -70,7 +70,7 @@ def absorber_responses(
 
 @cache
 def exact_absorber(machine, mass, band=None) -> TunedAbsorber:
-    """Return the absorber with the lowest peak over `band` (Hz). The cubic spring is left out."""
+    """Return the absorber that gives the lowest peak over `band` (Hz), if the cubic spring is 0."""
     ratio, linear = mass / machine.mass, replace(machine, cubic_stiffness=0.0)
     frequencies = _frequencies(linear, ratio, band)
 

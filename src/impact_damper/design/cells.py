@@ -166,7 +166,7 @@ class Motions:
         return any(known and not tested for _, known, tested in results)
 
     def largest(self, rank, least=0.0, left_out=()) -> np.ndarray:
-        """Run motions until the largest of the bounds of all cells is final. Return all bounds.
+        """Run motions until the largest bound is final. Return the bounds of all cells.
 
         The bound of a cell is the `rank`-th largest displacement of its motions. As long as the
         motion with this displacement must be run further, the bound is an estimate. Such a motion

@@ -73,7 +73,7 @@ def evaluate_gap(task: Task, progress=None) -> xr.Dataset:
 
 
 def confirm(task, gap, turn, sets, progress=None) -> Tried:
-    """Return bounds at a gap (mm) from new random starts, which depend on the integer `turn`."""
+    """Run a gap (mm) with new random starts. Each integer `turn` gives different starts."""
     stream = "confirmed", turn
     return Tried(gap, Promise(task, 1e-3 * gap, sets, stream, progress=progress).refined())
 

@@ -13,7 +13,7 @@ CORNERS = 8  # largest number of corners. In a corner each value is at one end o
 # A set of factors has a bound of the displacement at each frequency. The largest of these bounds is
 # the peak of the set. Up to SPLITS rounds add frequencies on both sides of each peak that is at
 # least NEAR x the largest peak of all sets. No frequencies are added beside an accurate peak.
-# A finite peak is accurate if two conditions hold. The round before has raised the peak by at most
+# A finite peak is accurate if two conditions hold. The latest round has raised the peak by at most
 # the fraction PEAK. A parabola through the largest bound and the bounds at both neighbouring
 # frequencies has a maximum that exceeds the largest bound by at most the fraction PEAK.
 NEAR, PEAK, SPLITS = 0.9, 0.01, 4

@@ -56,7 +56,7 @@ class Range(NamedTuple):
 
 
 class Curve:
-    """Several gaps (mm), each with its largest displacement (mm) and its worst frequency (Hz)."""
+    """Gaps (mm), and at each the largest displacement (mm) and its frequency (Hz)."""
 
     def __init__(self, task: Task):
         self.task = task
@@ -201,8 +201,8 @@ def score(task, gaps, frequencies, starts, stream, progress=None, sets=(NOMINAL,
     The result is three sequences over `gaps` (mm). A cell is a gap, one of `frequencies` (Hz) and
     one of `sets` (of factors). Each cell has `starts` random starts (`stream`: see `draw_starts`).
     About the fraction (1 - task.share)/2 of the motions of a cell exceed the displacement of the
-    cell. The worst cell has the largest displacement. If only rare motions move so far, the worst
-    cell is run again (see DOUBTED).
+    cell. The worst cell has the largest displacement. If only rare motions reach this
+    displacement, the worst cell is run again (see DOUBTED).
     """
     conditions = [(f, tuple(each)) for f in frequencies for each in sets]
     cells = [Cell(1e-3 * gap, *each) for gap in gaps for each in conditions]

@@ -1,4 +1,4 @@
-"""Robustness of a design: impulses on the machine, and how long motions take to return.
+"""Robustness of a design: impulses on the machine, and the time until motions are small again.
 
 Terms from Attractors.jl 2: minimal critical shock, convergence time, finite-time basin stability.
 """
@@ -56,7 +56,7 @@ def shocks(task, decision, progress=None) -> xr.Dataset:
 
 
 def times_after(task, p, state, changes, promised):
-    """Return the convergence times after each of `changes` is added to the velocity in `state`."""
+    """Return the convergence time after each of `changes` of the machine's velocity in `state`."""
     states = np.tile(state, (len(changes), 1))
     states[:, 1::2] += np.asarray(changes)[:, None]
     return convergence_times(task, p, states, promised)

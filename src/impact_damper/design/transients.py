@@ -47,7 +47,7 @@ REST, MOST_WINDOWS, LONGEST = 1e-3, 10**4, 2.0
 
 
 def transients(task, choice, progress=None) -> xr.Dataset:
-    """Return a dataset: swept sine and unforced decay, without and with the chosen damper."""
+    """Return a dataset of sweeps and unforced decays, without and with the chosen damper."""
     machine, damper = task.machine, task.damper(1e-3 * float(choice["design_gap"]))
     # Only a sweep through all resonances meets all large motions of a nonlinear machine.
     low = min(task.band[0], task.resonance[0])
