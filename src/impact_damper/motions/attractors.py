@@ -145,8 +145,8 @@ def _radius(coefficients, step, contraction):
     low, high = 0.0, 10.0
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
-        # r bounds a motion's distance from the orbit; r' = a r^2 + b r^3. A step uses the rate at
-        # `ahead`, the largest r possible in the step. So the error of r is never negative.
+        # r bounds a motion's distance from the orbit. It grows at the rate a r^2 + b r^3. A step
+        # takes the rate at `ahead`, the largest r possible in the step. So r is never too small.
         r = middle
         for a, b in coefficients.T:
             ahead = r + 2 * step * (a + b * r) * r * r
@@ -161,7 +161,7 @@ def _radius(coefficients, step, contraction):
 def label_damped(p, states, phase, settling, known=(), workers=1, progress=None):
     """Run motions with the damper from states (n, 4); return labels, cycles run, and attractors.
 
-    `phase` is the forcing phase of the states. The attractors are records, those in `known` first.
+    `phase` is the forcing phase of the states. Attractors are records: first `known`, then new.
     A label is the index of an attractor, or a flag in LABELS if the motion does not settle.
     """
     begin = phase % (2 * np.pi) / p[FREQUENCY]
@@ -254,6 +254,6 @@ def signed_distance(inside):
     """Return each cell's distance from the edge of a set, in cell widths (outside: negative)."""
     if inside.all() or not inside.any():
         return np.where(inside, np.inf, -np.inf)
-    # The transform gives the distance to the centre of a cell beyond the edge, half a cell too far.
+    # The transform measures to the centre of the nearest cell beyond the edge: half a cell too far.
     inward, outward = distance_transform_edt(inside), distance_transform_edt(~inside)
     return np.where(inside, inward - 0.5, 0.5 - outward)

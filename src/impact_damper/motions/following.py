@@ -24,7 +24,7 @@ RESOLUTION = 1e-8
 class Followed(NamedTuple):
     """The last two values of the parameter that `follow` has reached, and the orbits there.
 
-    `status` is the status of the last correction. `arrived`: the last value is the target.
+    `status` is the last status from `correct` in `follow`. `arrived`: the last value is the target.
     """
 
     values: tuple[float, float]
@@ -60,11 +60,11 @@ def follow(
     """Follow an orbit from one value of a parameter to another, or as far as possible.
 
     `orbit` is the orbit at `start`. `correct(value, predicted state)` returns an orbit (None on
-    failure) and a status. The first step goes to `target`. A step fails if `correct` fails, or if
-    Z1, Z1' or Z2 of the new and of the last orbit differ by `reach` or more. A failure halves the
-    step, a success multiplies it by `growth`. Following stops if a step is below `shortest`. The
-    predicted state is that of the last orbit, or, if `extrapolating`, lies on the line through the
-    states of the last two orbits. `behind`, if given, is an orbit at 2 start - target.
+    failure) and a word, the status. The first step goes to `target`. A step fails if `correct`
+    fails, or if Z1, Z1' or Z2 changes by `reach` or more. A failure halves the step, a success
+    multiplies it by `growth`. Following stops if a step is below `shortest`. If `extrapolating`,
+    the predicted state lies on the line through the states of the last two orbits, otherwise it is
+    the last orbit's state. `behind`, an orbit at 2 start - target, gives the first step a line.
     """
     value, step, status = start, target - start, ""
     before, last_step = (start, orbit), target - start

@@ -54,12 +54,12 @@ def run(p, y, ahead, strobe, tolerance, limit, stop=NEVER):
 
 @kernel
 def run_strobes(p, y, side, near, ring, strobe, tolerance, first, last, limit, path, out):
-    """Run a motion from strobe number `first` to number `last`, or until it settles or escapes.
+    """Judge a motion at strobes `first` to `last` - 1; stop when it has settled or escaped.
 
-    `strobe` is the time of strobe number 0, in forcing cycles. The run ends at number `limit`.
-    `path` is as in `run`. `ring` holds the last strobe states. Newton's method is tried if the
-    motion seems nearer to an orbit than `near`; each failure reduces `near`. Return the wall in
-    contact at the end, and the last value of `near`.
+    The motion runs from each of these strobes to the next, but not beyond strobe number `limit`.
+    `strobe` is the time of strobe number 0, in forcing cycles. `path` is as in `run`. `ring` holds
+    the last strobe states. Newton's method is tried if the motion seems nearer to an orbit than
+    `near`; each failure reduces `near`. Return the wall in contact at the end and the last `near`.
     """
     work = workspace()
     none = np.empty((0, 4))

@@ -17,12 +17,12 @@ from impact_damper.motions.records import NEVER
 from impact_damper.motions.traces import states_at
 from impact_damper.theory.free_oscillator import main_solutions
 
-# `course` takes SAMPLES samples in a forcing cycle, also in MARGIN cycles before and after a run.
+# `course` takes SAMPLES samples of Z1 in a cycle. It adds MARGIN cycles before and after a run.
 MARGIN, SAMPLES = 10, 40
 # Two free motions are equal if their max |Z1| differ by less than this number.
 ALIKE = 1e-6
 # An entry of a log: the damper is switched on at `on_time` and off at `off_time`. Then the free
-# motion runs until `end_time`; `destination` is its kind. Times are cycles since the run began.
+# motion, of the kind `destination`, runs until `end_time`. Times: cycles since the run began.
 # released_period, released_displacement: period and max |Z1| of the motion before switching off.
 SWITCHING = np.dtype(
     [(name, "f8") for name in ("on_time", "off_time", "end_time")]
@@ -165,14 +165,14 @@ def release_case(oscillator, damper, frequency, settling) -> ReleaseCase:
 
 
 def kinds(period, displacement, known):
-    """Return the kinds of motions (DAMPED_MOTION). known[1]: max |Z1| of the resonance motion."""
+    """Return each motion's kind, a flag of DAMPED_MOTION. `known` is a field of `ReleaseCase`."""
     one = np.where(displacement < known[1] / 2, DAMPED_MOTION["quiet"], DAMPED_MOTION["violent"])
     several = np.where(period > 1, DAMPED_MOTION["subharmonic"], one)
     return np.where(period == 0, DAMPED_MOTION["unsettled"], several)
 
 
 def destination(known, record):
-    """Return a free motion's kind, a flag of FREE_MOTION. `known` is the field of `ReleaseCase`."""
+    """Return a free motion's kind, a flag of FREE_MOTION. `known` is a field of `ReleaseCase`."""
     if not is_settled(record):
         return FREE_MOTION["unresolved"]
     if record["period"] == 3:

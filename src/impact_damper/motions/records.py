@@ -100,10 +100,10 @@ def survey(p, states, phases, times, tolerance, log, sums):
 
 @kernel_only
 def add_samples(c, order, moments, sample, count, sums):
-    """Add samples of a polynomial c, times cos(W T) to sums[0] and times sin(W T) to sums[1].
+    """Add samples of c(t) cos(W T) to sums[0], and samples of c(t) sin(W T) to sums[1].
 
-    c has the degree `order` and depends on the time since a step began. `moments` are four such
-    times, of which `count` are used. `sample` is the number of the first, counted from the strobe.
+    c is a polynomial of the degree `order`. The time t since a step began takes the first `count`
+    of four values `moments`. `sample` is the first sample's number, counted from the strobe.
     """
     t0, t1, t2, t3 = moments
     v0 = v1 = v2 = v3 = c[order]
@@ -226,8 +226,8 @@ def tabulate(records):
 def envelope(parameters, lengths, y, tolerance):
     """Run a motion through n windows of time, with a row of packed parameters for each window.
 
-    Return for each window the largest |Z1| and the number of contacts that begin. If the motion
-    escapes in a window, its |Z1| is infinite and its number is NaN; later windows have only NaN.
+    Return for each window the largest |Z1| and the number of contacts that begin. In the window of
+    an escape |Z1| is infinite and the number is NaN; in later windows both are NaN.
     The last state replaces y. Each window begins at the strobe, where the forcing is 0, so W can
     change between windows. If there is forcing, each window must last one forcing cycle.
     """

@@ -87,9 +87,9 @@ def frequency_response(
           `motion_starts`, the number of random starts that lead to the motion; the 95 % interval of
           the share of random starts that lead to the motion; the mean life of a chaotic motion.
           Entries without a motion have the outcome `absent`.
-        - For each (frequency, start): outcome and length of the run. For each `end`: the end of a
-          branch. For each `frequency`: the largest |Z1| and the largest |Z1'| of random starts, and
-          the same for the motions without the damper.
+        - For each (frequency, start): outcome and length of the run. For each `end`: where and how
+          a branch ends. For each `frequency`: the largest |Z1| and the largest speed of the primary
+          mass, both in random starts and in motions without the damper.
         - `missed_share`: upper bound (95 %) on the share of starts that lead to motions not found.
 
     Warns
@@ -131,7 +131,7 @@ def find_lives(parameters, outcomes, states, runs, periods, seed, settling, **ru
     """Measure the mean lives of the chaotic motions in a sweep; return dataset variables (n, m).
 
     Each chaotic motion is run `runs` times for at most `periods` cycles, from random states nearby.
-    `outcomes` (n, m) and `states` (n, m, 4) describe the motions. `running`: `workers`, `progress`.
+    `outcomes` (n, m), `states` (n, m, 4): all motions. `running` holds `workers` and `progress`.
     """
     chaotic = np.argwhere(outcomes == flag("outcome", "chaotic"))
     table = {"life_ends": np.full(outcomes.shape, -1)}

@@ -68,7 +68,7 @@ class Search(NamedTuple):
     free_speed: np.ndarray
 
     def variables(self, dimension=None) -> dict:
-        """Return dataset variables: missed share, and sizes (scalars if `dimension` is None)."""
+        """Return missed share and sizes of starts and free motions; scalars without `dimension`."""
         names = "start_displacement", "start_speed", "free_displacement", "free_speed"
         data = {
             name: ((), values[0]) if dimension is None else (dimension, values)

@@ -48,10 +48,10 @@ def steady_motion(
     -------
     xarray.Dataset
         Outcome (see `decode`), period, contacts per forcing cycle, largest |Z1|, asymmetry (0 if
-        the motion becomes its mirror image in half a period), phase of the first harmonic of Z1
-        minus those of Z2 and of the loose mass, dominant multiplier, Lyapunov exponent, frequencies
-        of a quasi-periodic motion. `state` is the state at W T = pi/2, and has this phase as a
-        coordinate. As argument `state` of `simulate` or of this function it continues the motion.
+        the motion becomes its mirror image in half a period), phase of Z1 minus phase of Z2, phase
+        of Z1 minus phase of the loose mass (phases of first harmonics), dominant multiplier,
+        Lyapunov exponent, frequencies of a quasi-periodic motion. `state` is the state at
+        W T = pi/2. To continue the motion, pass `state` to `simulate` or to this function.
 
     Examples
     --------

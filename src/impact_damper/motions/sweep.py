@@ -29,8 +29,8 @@ SAME, ROUNDING, SIMILAR = 1e-6, 1e-11, 1.5
 # Outcomes with infinite or zero max |Z1|. All motions with one such outcome count as one motion.
 ALIKE = tuple(flag("outcome", name) for name in ("diverged", "escaped", "at_rest"))
 # Search for orbits by Newton's method. LONGEST: longest period in cycles. REACH: largest distance
-# of an orbit from its first guess, divided by the greatest of all the numbers d0, |Z1| and |Z1'| of
-# known motions. SAME_ORBIT: two orbits are equal if their states differ by less.
+# of an orbit from its first guess, divided by the clearance or, if larger, by the largest |Z1| or
+# |Z1'| of known motions. SAME_ORBIT: two orbits are equal if their states differ by less.
 LONGEST, REACH, SAME_ORBIT = 5, 1.0, 1e-6
 # Events at the end of a branch. At a bifurcation the modulus of the orbit's multiplier is above
 # CRITICAL. A multiplier is complex if its imaginary part is above COMPLEX. At a loss of symmetry
@@ -86,7 +86,7 @@ def sweep(parameters, index, dimension, search, settling, *, workers=1, progress
 
 
 def reached(data):
-    """Return a mask of the motions of a `sweep` to which a random or placed start leads."""
+    """Return True for motions to which a random or placed start leads. `data` is from `sweep`."""
     return (data["motion_starts"][1] > 0) | (data["origin"][1] == flag("origin", "placed_start"))
 
 
@@ -248,7 +248,7 @@ def size_ratio(one, other):
     """Return the larger max |Z1| of two motions divided by the smaller.
 
     A motion without a period may have a small max |Z1| by chance. For two such motions `reach`, the
-    largest (Z1^2 + (Z1'/W)^2)^(1/2) at strobes, also gives a ratio. The smaller one is returned.
+    largest (Z1^2 + (Z1'/W)^2)^(1/2) at strobes, also gives a ratio. The smaller ratio is returned.
     """
     if one["maximum_displacement"] == other["maximum_displacement"]:
         return 1.0

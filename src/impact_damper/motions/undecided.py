@@ -51,10 +51,10 @@ TURN, WANDERING = 0.05, 3.0
 
 @kernel
 def run_block(p, y, tangent, states, growth, stop):
-    """Run a motion and its `tangent` (1, 4) for n forcing cycles.
+    """Run a motion and its `tangent` (1, 4) for len(states) forcing cycles.
 
-    For each cycle `states` (n, 4) receives the last state, and `growth` (n,) the logarithm of the
-    factor by which the tangent grows. Return the number of contacts and whether the motion escapes.
+    states[k] receives the state after cycle k, and growth[k] the logarithm of the factor by which
+    the tangent grows in cycle k. Return the number of contacts and whether the motion escapes.
     """
     work = workspace()
     side = side_of(p, y)

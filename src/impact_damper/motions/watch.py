@@ -44,8 +44,8 @@ EARLY, RETURNS, NONLINEAR, APPROACH = (1e-2, 1e-3), 4, 0.1, 1000
 REST = 1e-9
 # Data of one motion while it runs.
 # untouched      forcing cycles since the last contact
-# near           Newton's method is tried at distances from an orbit below this bound
-# early          a larger bound, which counts if the state moves less and less (see EARLY)
+# near, early    largest distances from an orbit at which Newton's method is tried (NEAR, EARLY)
+# energy         energy at the first strobe, if there is no forcing
 # periods        forcing cycles in which the growth of a tangent was measured
 # batch          logarithm of the tangent's growth in the present batch, so far
 # mean, squares  mean of `batch` over complete batches; sum of squared deviations from this mean
@@ -87,8 +87,8 @@ def follow_tangent(tangent, growth):
 def exponent(growth):
     """Return the mean growth of a tangent, its standard error, and whether recent growth is large.
 
-    In a batch, growth is the logarithm of the factor by which the tangent grows. The mean is over
-    all batches. Recent growth is large if the last RECENT batches have more than half of this mean.
+    The record `growth` (SEEN) holds a tangent's growth in batches, as logarithms. Recent growth is
+    large if its mean over the last RECENT batches exceeds half of the mean over all batches.
     """
     count = growth.periods // BLOCK
     recent = 0.0
@@ -206,7 +206,7 @@ def push_forward(matrix, apart, ahead):
 
 @inlined
 def leave_transient(p, out):
-    """Set the Lyapunov exponent in the record `out` of a settled motion to that of the orbit."""
+    """Compute a settled motion's Lyapunov exponent from the multiplier; store it in `out`."""
     duration = out.period * 2.0 * math.pi / p[FREQUENCY]
     out.lyapunov_exponent = math.log(abs(out.multiplier)) / duration
     out.lyapunov_error = 0.0 if out.lyapunov_exponent < 0.0 else np.nan

@@ -63,7 +63,7 @@ def main_solutions(oscillator, frequency) -> FreeSolutions:
 
 
 def balance_amplitudes(oscillator, frequency):
-    """Return amplitudes of `main_solutions`. Without a peak: only the least of `free_solutions`."""
+    """Return the amplitudes of `main_solutions`, or without a peak only the smallest amplitude."""
     try:
         return main_solutions(oscillator, frequency).amplitude
     except ValueError:
@@ -115,8 +115,8 @@ def maximum_response(oscillator) -> Point:
 @lru_cache
 def free_folds(oscillator) -> tuple[Point, ...]:
     """Return the folds of the free response curve, by ascending amplitude."""
-    # P is the left side of the equation in `maximum_response`, and u = a^2. At a fold P = 0 and, at
-    # constant W, dP/du = 0. Eliminating W^2 from both equations leaves a polynomial in u.
+    # The docstring of `maximum_response` gives the curve: P(u, W^2) = 0, u = a^2. At a fold also
+    # dP/du = 0 at constant W. Eliminating W^2 from both equations leaves a polynomial in u.
     damping, stiffness = oscillator.damping**2, oscillator.linear_frequency**2
     force, unbalance, g = oscillator.force, oscillator.unbalance, oscillator.hardening
     if g == 0 or force == unbalance == 0:

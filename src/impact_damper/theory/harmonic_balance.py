@@ -79,8 +79,8 @@ def harmonic_balance(system, damper, frequencies):
         By harmonic balance the suppression band is the range of frequencies around the peak Wp of
         the free response in which (7) has exactly one stable solution, smaller than the free
         resonance. Beyond the fold of the free resonance branch there is no band. The variables of
-        the band are its edges (NaN if not found), its width, Wp, and two amplitudes at Wp: that of
-        the free resonance and the smallest stable one with the damper.
+        the band are its edges (NaN if not found), its width and Wp. Two further variables are
+        the free resonance amplitude at Wp, and the smallest stable amplitude with the damper at Wp.
 
     Raises
     ------
@@ -264,10 +264,10 @@ def _smallest(oscillator, damper, frequency):
 
 
 def analytical_table(oscillator, dampers, frequency):
-    """Return variables for `dampers` that differ only in clearance, in ascending order.
+    """Return dataset variables for `dampers`, which differ only in their clearances (ascending).
 
-    The variables are the smallest stable |a| by (7) for each damper, and one clearance at which a
-    is 0. It is searched between each damper and the next, and is NaN if there is none.
+    For each damper: the smallest |a| of stable solutions of (7), where a is the amplitude of Z1.
+    For all dampers together: one clearance at which a is 0, or NaN if no such clearance is found.
     """
     found = [_smallest(oscillator, each, frequency) for each in dampers]
     signed, status = np.array([size for size, _ in found]), [name for _, name in found]

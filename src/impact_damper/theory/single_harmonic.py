@@ -20,7 +20,7 @@ from impact_damper.theory.roots import polynomial_roots, smooth_roots
 
 
 class Solutions(NamedTuple):
-    """Solutions of the balance at one frequency: a, b and t1, arrays of shape (count,)."""
+    """Solutions at one frequency: amplitudes a of Z1 and b of Z2, and phases t1, shape (count,)."""
 
     amplitude: np.ndarray
     relative_amplitude: np.ndarray
@@ -28,7 +28,7 @@ class Solutions(NamedTuple):
 
 
 def contact_amplitude(relative_amplitude, clearance) -> tuple:
-    """Return B(b) and dB/db. By (6e), the first harmonic of the contact force is r1 B(b).
+    """Return B and dB/db for the amplitude b of Z2. r1 B is the contact force's harmonic (6e).
 
     B = b (2/pi)(p - sin p cos p) with the contact angle p = arccos(d0/b). B is 0 for b <= d0.
     """
@@ -137,7 +137,7 @@ class _Balance:
 
     def angle_range(self):
         """Return bounds on the contact angle p = arccos(d0/b) of all solutions of (7)."""
-        # (7b) gives |a| <= f/(h W). (7a) bounds |g a^3| by the absolute values of its other terms.
+        # (7b) bounds |a| by `reach`. (7a) gives a second bound, as its cubic term grows like |a|^3.
         reach = self.force / self.drag
         if reach == 0:
             return 0.0, 0.0
@@ -220,7 +220,7 @@ def growth_rate(state, oscillator, damper, frequency) -> np.ndarray:
 
 
 def fixed_points(solutions) -> np.ndarray:
-    """Return the argument `state` of `jacobian` for each solution: its complex amplitudes."""
+    """Return real and imaginary parts of each solution's amplitudes, as a `state` of `jacobian`."""
     *sizes, phase = solutions
     return np.stack([size * np.exp(1j * phase) for size in sizes], axis=-1).view(float)
 

@@ -23,10 +23,10 @@ APART = 1e-20j
 class Flight(NamedTuple):
     """The quiet (small) motion near the optimum clearance.
 
-    x = W^2 Z1/f is driven by the forcing and by impacts (docs/explanation/straight_flight.md).
-    Phases phi count from the minimum that x would have without impacts. At the phase phi = s an
-    impact changes dx/dphi by 4 q/pi. The number q is called `impulse`. An elastic contact lasts the
-    time t, and `contact` is W t/pi. `damping` is h/W. `stiffness` is wl/W, below 1.
+    Impacts and a forcing of the amplitude f drive x = W^2 Z1/f. Phases phi count from the minimum
+    that x would have without impacts. At the phase phi = s an impact changes dx/dphi by 4 q/pi. The
+    number q is called `impulse`. An elastic contact lasts the time t, and `contact` is W t/pi.
+    `damping` is h/W. `stiffness` is wl/W, below 1. See docs/explanation/straight_flight.md.
     """
 
     mass_ratio: float
@@ -42,7 +42,7 @@ class Flight(NamedTuple):
 
     @property
     def forced_lag(self):
-        """Phase phi at which the forcing has its maximum."""
+        """Phase from the minimum of Z1 without impacts to the maximum of the forcing."""
         return np.arctan2(self.damping, 1 - self.stiffness**2)
 
     @property
@@ -59,15 +59,15 @@ class Flight(NamedTuple):
 
     @property
     def reach(self):
-        """Number c: contacts that take time reduce the clearance rm W^2 d0/f by c (1 + rm) q.
+        """Number c: the time in contact reduces the clearance d0 by c (1 + rm) q f/(rm W^2).
 
-        f is the forcing amplitude and q the `impulse`.
+        f is the forcing amplitude, q the `impulse`. At rigid walls c is 0.
         """
         return 4 / np.pi * self.contact_phase * self.restitution / (1 + self.restitution) ** 2
 
     @property
     def setback(self):
-        """Decrease of the phase s of an impact because contacts take time."""
+        """Phase of an impact at rigid walls, minus the phase at walls of finite stiffness."""
         asymmetry = (1 - self.restitution) / (1 + self.restitution)
         return self.contact_phase * asymmetry - 2 * damping_ratio(self.restitution) * self.contact
 
@@ -88,7 +88,7 @@ class Flight(NamedTuple):
         return ((function(roots[0]) - function(roots[1])) / (2 * half)).real
 
     def motion(self, phase, impulse):
-        """Return x, dx/dphi, d2x/dphi2 at phi = `phase` between two impacts (phi: see `Flight`)."""
+        """Return x = W^2 Z1/f and its first two derivatives by phi, at phi = `phase`."""
         y = np.pi / 2 - (phase - self.lag(impulse))
         pushed = [
             -2
@@ -103,12 +103,12 @@ class Flight(NamedTuple):
         return tuple(impulse * push - self.forced * each for push, each in pairs)
 
     def ratio(self, impulse):
-        """Return the clearance, as rm W^2 d0/f, at which impacts have `impulse` q."""
+        """Return the clearance as rm W^2 d0/f (f: forcing amplitude) for impacts with `impulse`."""
         tip = self.motion(self.lag(impulse), impulse)[0]
         return impulse + self.mass_ratio * tip - (1 + self.mass_ratio) * self.reach * impulse
 
     def largest_displacement(self, impulse):
-        """Return max |x| for `impulse` q: at the impact, or at a turning point between impacts."""
+        """Return the largest |Z1| W^2/f, at an impact or at a turning point between impacts."""
         lag = self.lag(impulse)
         turn = np.arcsin(np.minimum(2 * impulse / (np.pi * self.forced), 1.0))
         sizes = [self.motion(lag, impulse)[0] - (1 - 2 / np.pi) * self.reach * impulse]
@@ -142,7 +142,7 @@ def flight_of(oscillator, damper, frequency) -> Flight:
 
 @cache
 def least_displacement_ratio(flight) -> float:
-    """Return the clearance at which max |Z1| is smallest, as rm W^2 d0/f."""
+    """Return rm W^2 d0/f (f: forcing amplitude) for the clearance with the smallest max |Z1|."""
     impulses = np.linspace(0, flight.largest_impulse, GRID + 2)[1:-1]
     best = int(np.argmin(flight.largest_displacement(impulses)))
     bounds = impulses[max(best - 1, 0)], impulses[min(best + 1, GRID - 1)]
