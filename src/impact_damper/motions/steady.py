@@ -51,7 +51,7 @@ def steady_motion(
         the motion becomes its mirror image in half a period), phase of Z1 minus phase of Z2, phase
         of Z1 minus phase of the loose mass (phases of first harmonics), dominant multiplier,
         Lyapunov exponent, frequencies of a quasi-periodic motion. `state` is the state at
-        W T = pi/2 (a coordinate). To continue the motion, pass it to `simulate` or to this function.
+        W T = pi/2 (a coordinate). To continue the motion, pass it to `simulate` or this function.
 
     Examples
     --------
