@@ -13,7 +13,7 @@ from impact_damper.data.datasets import oscillator_of
 
 
 def widening(datasets):
-    """Return numbers that test claim 4: larger omega_l, larger rm or lower e widens the band."""
+    """Return numbers on claim 4: larger omega_l, larger rm or lower restitution widens bands."""
     stiffer, heavier = (
         [reading.select(datasets, "harmonic_balance", names) for names in series]
         for series in ((reading.CAPTIONS, reading.RULES), (reading.BY_MASS,))

@@ -57,7 +57,7 @@ class Bound(NamedTuple):
         return cls(name, *map(float, least or [-math.inf]), *map(float, most or [math.inf]))
 
     def holds(self, values) -> bool | None:
-        """Return whether `values[name]` is in the range, or None if it is NaN."""
+        """Return whether `values[name]` is in the range, or None if the number is NaN."""
         value = values[self.name]
         return None if math.isnan(value) else self.least <= value <= self.most
 

@@ -124,9 +124,9 @@ def early_release(datasets):
 def by_policy(datasets, case, policy):
     """Return the share of runs in which a release policy succeeds, and the median time to success.
 
-    `case` is a dataset of the stage `migration`. Only runs with the oscillator, the damper and the
-    frequency of `case` count. Without such runs both results are NaN. A run succeeds if it reaches
-    the goal within 350 cycles. The time is in cycles, and infinite without success.
+    `case` is a dataset of the stage `migration`. Only runs at the frequency of `case`, with the
+    same oscillator and damper, count. Without such runs both results are NaN. A run succeeds if it
+    reaches the goal within 350 cycles. The time is in cycles, and infinite without success.
     """
     damper, frequency = damper_of(case), reading.parameter(case, "frequency")
     names = "mass_ratio", "clearance", "restitution"

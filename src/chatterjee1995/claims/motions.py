@@ -114,7 +114,7 @@ def first_collisions(datasets):
 
 
 def contact_model(datasets):
-    """Return numbers that test claim 15: the contact model is good for high e only."""
+    """Return numbers that test claim 15: the contact model is good for high restitution only."""
     used = [
         reading.parameter(data, "restitution")
         for stage in ("response", "optimum")
@@ -134,7 +134,6 @@ def contact_model(datasets):
 
 
 def _duration(restitution):
-    """Return (duration of a contact)/(duration for e = 1), if only the wall acts on the mass."""
     return 1 / math.sqrt(1 - damping_ratio(restitution) ** 2)
 
 

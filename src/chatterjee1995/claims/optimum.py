@@ -61,7 +61,7 @@ def _rise(sweep):
 
 
 def restitution(datasets):
-    """Return numbers that test claim 11: a lower e widens the band and lowers the optimum d0."""
+    """Return numbers for claim 11: lower restitution widens the band and lowers the optimum d0."""
     names = (reading.BY_MASS[1], reading.INELASTIC)
     hard, soft = (suppression_band(datasets, name) for name in names)
     design = reading.get(datasets, "harmonic_balance", reading.BY_MASS[1])

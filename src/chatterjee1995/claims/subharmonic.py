@@ -11,13 +11,13 @@ AS_LARGE = 0.95  # a subharmonic counts as unchanged if max |Z1| / (free max |Z1
 
 
 def _remaining(datasets, name):
-    """Return a dict on a damped curve's stable orbits of period 3, 6, 9, ... cycles.
+    """Return a dict: facts on stable orbits of period 3, 6, 9, ... cycles, for a curve with damper.
 
     `band`: width in W of the suppression band by harmonic balance.
     `in_band`: width in W over which such orbits exist, in the suppression band.
     `between`: width in W over which such orbits exist, in the range of the free subharmonic.
-    `ratio`: the largest (max |Z1| of such an orbit)/(max |Z1| of the free subharmonic at this W).
-    `ratio_in_band`: the largest such ratio at any W in the suppression band.
+    `ratio`: the largest (max |Z1| of such an orbit)/(max |Z1| of the free subharmonic), at equal W.
+    `ratio_in_band`: the largest value of the same fraction in the suppression band.
     """
     branches, free = orbits.of_curve(datasets, name)
     part = orbits.stable_subharmonics(branches)
@@ -48,7 +48,7 @@ def reappearance(datasets):
 
 
 def by_damping(datasets):
-    """Return numbers that test claim 18: the lower h, the more a damper reduces the subharmonic."""
+    """Return numbers that test claim 18: a damper reduces subharmonics more if damping h is low."""
     low, high = (_reduction(datasets, name) for name in (LOW_DAMPING, reading.BY_MASS[0]))
     return {
         "fall": low["fall"] / high["fall"],

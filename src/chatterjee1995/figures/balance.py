@@ -60,7 +60,7 @@ VIOLENT = {
 
 @style.context()
 def draw_harmonic_convergence(*, harmonic_convergence):
-    """Draw three errors of harmonic balance, and in (d) which motion Newton's method finds."""
+    """Draw three errors of harmonic balance. Panel (d) shows which motion Newton's method finds."""
     drawn = style.figure("double", 6.4)
     panels = drawn.subplots(2, 2, sharex=True)
     style.letter_panels(panels.flat)
@@ -97,7 +97,7 @@ def _guide(data, at):
     highest, error = highest[used], np.log(error[used])
     exponential = decode(data["decay_kind"]) == "exponential"
     decay = -at["decay_predicted"].item() * (highest if exponential else np.log(highest))
-    # Draw the predicted decay at 3 times the computed errors.
+    # The predicted decay is fitted to the computed errors, and drawn a factor 3 above them.
     return highest, 3 * np.exp(decay + np.mean(error - decay))
 
 

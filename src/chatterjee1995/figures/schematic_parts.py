@@ -10,7 +10,7 @@ LETTER = {"ha": "center", "va": "center", "size": 10.0}
 
 
 def sheet(column, height):
-    """Return axes that fill an empty figure, with one unit per inch."""
+    """Return axes, with one unit per inch, that fill a new figure of a column's width."""
     page = style.figure(column, height)
     page.set_layout_engine("none")
     axes = page.add_axes((0, 0, 1, 1))

@@ -98,7 +98,10 @@ def attractor(axes, centre, radius, level, color, **keywords):
 
 
 def approach(axes, start, centre, radius, level, color, rate, **keywords):
-    """Draw a motion that tends to an attractor: a spiral that approaches a circle."""
+    """Draw a motion that tends to an attractor: a spiral from `start` that approaches a circle.
+
+    The circle lies in the plane at the height `level`. The greater `rate`, the faster the approach.
+    """
     offset = np.subtract(start, centre)
     turned = np.linspace(0, 2 * np.pi, 300)
     angle = np.arctan2(offset[1], offset[0]) + turned

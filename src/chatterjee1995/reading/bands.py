@@ -10,7 +10,7 @@ from chatterjee1995.reading import orbits
 
 
 class Band(NamedTuple):
-    """A suppression band from W = `lower` to `upper`. It may begin up to `resolution` higher."""
+    """A suppression band. It begins between `lower` and `lower + resolution`, ends at `upper`."""
 
     lower: float
     upper: float
@@ -28,7 +28,7 @@ class Band(NamedTuple):
 
 
 def high_motions(response, free):
-    """Return a mask of violent motions. It is False above the end of the resonance in `free`."""
+    """Return a mask of violent motions. It is False at W above the end of the free resonance."""
     frequency = response.frequency
     size = xr.DataArray(orbits.resonance(free, frequency), {"frequency": frequency})
     return reading.touching(response) & (response.maximum_displacement > orbits.HALF * size)

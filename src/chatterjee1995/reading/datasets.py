@@ -41,12 +41,12 @@ def select(datasets, stage, names):
 
 
 def damped(datasets, stage) -> dict:
-    """Return a dict with the datasets of a stage that have a damper, keyed by name."""
+    """Return a dict: name -> dataset of a stage, only for datasets with a damper."""
     return {name: data for name, data in datasets.get(stage, {}).items() if has_damper(data)}
 
 
 def free(datasets, stage) -> dict:
-    """Return a dict with the datasets of a stage that have no damper, keyed by name."""
+    """Return a dict: name -> dataset of a stage, only for datasets without a damper."""
     return {name: data for name, data in datasets.get(stage, {}).items() if not has_damper(data)}
 
 
@@ -116,7 +116,7 @@ def stable_impacting(design):
 
 
 def quiet_balance(design):
-    """Return at each W the amplitude a of least |a| among stable solutions of (7) with contacts."""
+    """Return at each W the amplitude a of the stable impacting solution of (7) with least |a|."""
     amplitude = stable_impacting(design)
     return amplitude.isel(solution=np.abs(amplitude).fillna(np.inf).argmin("solution"))
 

@@ -1,7 +1,7 @@
 """Exact periodic orbits at any frequency, interpolated between neighbouring orbits of a branch.
 
-The argument `free` is a dataset of branches without damper. An orbit is violent (high) if its
-max |Z1| is more than half of max |Z1| of the free resonance at the same frequency.
+In all functions here `free` is a dataset of branches without damper. An orbit is violent (high)
+if its max |Z1| is more than half of max |Z1| of the free resonance at the same frequency.
 """
 
 import numpy as np
@@ -17,7 +17,7 @@ INTERPOLATED = ("frequency", "size", "amplitude", "loose")  # columns interpolat
 
 
 def free_of(datasets, data):
-    """Return the dataset of branches with the oscillator of the dataset `data`, but no damper."""
+    """Return the dataset of branches without damper whose oscillator is the same as in `data`."""
     wanted = oscillator_of(data)
     for free in reading.free(datasets, "branches").values():
         if oscillator_of(free) == wanted:
@@ -36,7 +36,7 @@ def pieces(branches) -> pd.DataFrame:
 
     `lower`, `upper`: the lower and the higher frequency W of the two orbits.
     `fewest`, `contacts`: the smaller and the larger of the two orbits' contacts per cycle.
-    `restitution`: the least (speed after a contact)/(speed before it) in both orbits.
+    `restitution`: the least (speed after)/(speed before a contact) of all contacts of both orbits.
     `frequency`, `size` (max |Z1|), `amplitude`, `loose`: means over the two orbits.
     `frequency_change`, `size_change`, `amplitude_change`, `loose_change`: the value at the second
     of the two orbits minus the value at the first.
@@ -125,7 +125,7 @@ def smallest(part, frequency) -> pd.DataFrame:
 
 
 def largest_sizes(part, frequency):
-    """Return the largest max |Z1| in the pieces `part` at each frequency, NaN without a piece."""
+    """Return the largest max |Z1| of all pieces at each frequency, NaN where there is no piece."""
     return crossings(part, frequency).groupby("frequency")["size"].max().reindex(frequency).values
 
 
@@ -188,7 +188,7 @@ def high_counterparts(design, branches, free) -> pd.DataFrame:
 
 
 def subharmonic(free):
-    """Return the pieces of the widest branch (in W) of the one-third subharmonic without damper."""
+    """Return a table of pieces: the branch of free one-third subharmonics that is widest in W."""
     part = pieces(free)
     third = part[(part.period == 3) & (part.asymmetry < SYMMETRIC)]
     if third.empty:

@@ -74,7 +74,7 @@ class BalanceMap(
         priority=1,
     )
     def balance_map(self, config) -> dict:
-        # A clearance given as the word `rule` is left out. Without a clearance, rule (19) sets it.
+        # The clearance "rule" is left out: without a clearance, the stage uses rule (19).
         values = system.given(self, [*system.OSCILLATOR, *system.DAMPER]).items()
         fixed = {key: value for key, value in values if value != "rule"}
         points = config.points

@@ -81,7 +81,7 @@ class DesignRules(system.WithOscillator):
 
 
 def axis(name):
-    """Return the type for the key `name`. Its value is one number, or evenly spaced numbers."""
+    """Return the type of the parameter `name` in a study: one number, or evenly spaced numbers."""
     several = system.range_of(system.PARAMETERS[name], points=True)
     return number_or_range(
         several, f"{system.MEANINGS[name]}, one value or an even range", **system.BOUNDS[name]
@@ -133,7 +133,7 @@ def points(given) -> int:
 
 
 def even(given) -> dict:
-    """Return a dict from which a job makes the points of an axis. A number makes one point."""
+    """Return what a job needs to make an axis. If `given` is a number, the axis has one point."""
     return given.even() if hasattr(given, "even") else {"linspace": [given, given, 1]}
 
 

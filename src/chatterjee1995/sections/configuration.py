@@ -97,7 +97,7 @@ class Settling(Section):
 
 
 class Controller(Section):
-    """The migration controller, which switches the damper (the paper's figure 17), and its runs."""
+    """The controller that switches the damper (the paper's figure 17), and the runs with it."""
 
     trials: count("runs of each case", **bounds.RUNS_RANGE)
     periods: count(

@@ -39,7 +39,7 @@ def section_of(kind) -> str | None:
 
 
 def is_paper(chapter) -> bool:
-    """Return whether all stages that a chapter reads are part of the paper."""
+    """Return whether `paper` is true for every stage whose data a chapter of the report shows."""
     shown = [each for each in (*KINDS.values(), *TABLES.values()) if each.chapter == chapter]
     return all(STAGES[stage].paper for each in shown for stage in each.stages)
 

@@ -151,7 +151,7 @@ class MaybeWithDamper(keys_of(DAMPER, without=[COMMON]), WithOscillator):
 
 
 def damper_values(entry, config) -> dict:
-    """Return the arguments of `Damper`. Rule (19) replaces the word `rule` by a clearance."""
+    """Return the arguments of `Damper`. A clearance given as "rule" is computed by rule (19)."""
     values = {COMMON: config.contact_stiffness} | given(entry, DAMPER)
     if values.get("clearance") == "rule":
         oscillator = Oscillator(**config.oscillators[entry.oscillator].values())

@@ -74,6 +74,6 @@ def _rounded(value, digits=DIGITS):
 
 
 def parameter_columns(data, *names) -> dict:
-    """Return a dict: head of a column -> parameter. Names that the dataset lacks are left out."""
+    """Return a dict: head of a column -> value of a parameter. Names not in `data` are left out."""
     parameters = parameters_of(data)
     return {HEADS[name]: parameters[name] for name in names if name in parameters}

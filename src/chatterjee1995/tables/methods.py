@@ -23,7 +23,7 @@ WORDS = {
 def models(datasets) -> pd.DataFrame:
     """Return a table with one run of each method on each scene.
 
-    The run is the cheapest with the required accuracy, or the most accurate if all runs fail it.
+    The run is the cheapest with the required accuracy; without such a run, the most accurate.
     """
     rows = []
     for name, data in datasets.get("accuracy", {}).items():
