@@ -15,7 +15,7 @@ from impact_damper.model.exit_rules import damping_ratio
 
 
 class Exit(NamedTuple):
-    """The end of a contact: how it ended, scaled duration, departure speed over approach speed."""
+    """End of a contact: its kind, duration x natural frequency, speed after / speed before."""
 
     outcome: str
     duration: float

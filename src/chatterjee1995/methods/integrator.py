@@ -42,11 +42,11 @@ class Integrator:
     number of steps in a cycle if all steps are equal (`fixed`), and otherwise a tolerance.
 
     Figures show integrators in the order of `place`. `compared` names the stages that use the
-    integrator. For each of these stages the integrator defines one of the functions that REQUIRED
-    lists for the stage. `located` holds the values of `locate` that the stage `accuracy` compares.
-    This stage runs `slow` integrators for fewer cycles of a chaotic motion than the others.
-    `tolerances` is one of `labels.TOLERANCE_KEYS`. `stability_limit` is the largest step, times
-    natural frequency, with which an undamped linear oscillation stays bounded.
+    integrator. REQUIRED lists functions for each stage: the integrator defines at least one of
+    them. `located` holds the values of `locate` that the stage `accuracy` compares. This stage runs
+    `slow` integrators for fewer cycles of a chaotic motion than the others. `tolerances` is one of
+    `labels.TOLERANCE_KEYS`. An undamped linear oscillation stays bounded if the product of step and
+    natural frequency is at most `stability_limit`.
     """
 
     REQUIRED: ClassVar = {

@@ -132,7 +132,7 @@ def _convolution(coefficients, harmonics):
 
 
 def _real(by_value, by_conjugate):
-    """Return the matrix for (Re z, Im z) of the map z -> by_value z + by_conjugate conj(z)."""
+    """Return the real matrix that maps (Re z, Im z) as z -> by_value z + by_conjugate conj(z)."""
     total, difference = by_value + by_conjugate, by_value - by_conjugate
     return np.block([[total.real, -difference.imag], [total.imag, difference.real]])
 

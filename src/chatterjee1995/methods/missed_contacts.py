@@ -117,7 +117,7 @@ def _count_table(p, passages, depths, tolerances, steps):
 
 
 def _expected(passages, depths, steps, period):
-    # A contact lasts b = 2 sqrt(2 depth/|Z2''|). A step h contains it with chance max(0, 1 - b/h).
+    # A contact lasts b = 2 sqrt(2 depth/|Z2''|). It lies in one step h with chance max(0, 1 - b/h).
     curvatures = np.array([passage.curvature for passage in passages])
     beyond = 2 * np.sqrt(2 * depths / curvatures[:, None])
     return np.array([np.maximum(0, 1 - beyond * n / period).mean(axis=0) for n in steps])

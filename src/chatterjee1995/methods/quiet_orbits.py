@@ -81,7 +81,7 @@ def straight_flight_end(oscillator, clearance, restitution) -> float:
 
 
 def follow_quiet_orbits(parameters, states) -> QuietOrbits:
-    """Return the quiet orbits on a grid, followed from the cells with known `states` (not NaN)."""
+    """Follow quiet orbits over a grid of `parameters`, from cells whose `states` are not NaN."""
     grid = Grid(parameters, find_quiet_orbit, shortest=SHORTEST, axes=(1, 0), extrapolating=True)
     for cell in zip(*np.nonzero(np.isfinite(states[..., 0])), strict=True):
         at_strobe = shoot(parameters[cell], states[cell], 1, STROBE)
@@ -129,8 +129,8 @@ def _row_ends(grid, row):
 
 
 def _end(followed):
-    # `spread` has not reached the next cell, so the row ends in this cell. Now `follow` may reach
-    # the next cell, since it can extrapolate from an orbit that `spread` found later.
+    # `spread` found no orbit in the next cell, so the row ends in this cell. `follow` may find one
+    # there, since it can extrapolate from orbits that `spread` found later.
     if followed.arrived:
         return 0.0, "not_converged"
     before, fraction = followed.values
@@ -156,7 +156,7 @@ RULES = ("balance", "gap_harmonic", "straight_flight", "elastic", "flight")
 
 
 def elastic_ratios(flight) -> tuple[float, float]:
-    """Return the optimum rm W^2 d0/f for each of CRITERIA, NaN if e < 1 (f: forcing amplitude)."""
+    """Return an optimum rm W^2 d0/(forcing amplitude) for each of CRITERIA, or NaN if e < 1."""
     if flight.restitution != 1:
         return np.nan, np.nan
     contact, damping, whole = flight.contact, flight.damping, 1 + flight.mass_ratio
@@ -170,11 +170,11 @@ def elastic_ratios(flight) -> tuple[float, float]:
 def least_harmonic_ratio(flight) -> float:
     """Return rm W^2 d0/f at which the first harmonic of Z1 in a `Flight` is smallest.
 
-    At rigid walls an impact with the impulse q comes at the phase u. Here sin(u) = l q, and l is
-    `loss`. If contacts take time, the impact comes earlier by `setback`. The forcing is largest at
-    the phase `forced_lag`. Let n be `forced_lag` + `setback`. The force of forcing and impacts has
-    the first harmonic f (1 - c q exp(i (n - u))) with c = 8/pi^2 and the forcing amplitude f. The
-    first harmonic of Z1 is proportional to it. Both are smallest if
+    f is the forcing amplitude. At rigid walls an impact with the impulse q comes at a phase u for
+    which sin(u) = l q, where l is `loss`. If contacts take time, the impact comes earlier by
+    `setback`. The forcing is largest at the phase `forced_lag`. Let n be `forced_lag` + `setback`.
+    The sum of forcing and impact forces has the first harmonic f (1 - c q exp(i (n - u))), with
+    c = 8/pi^2. The first harmonic of Z1 is proportional to this one. Its modulus is smallest if
     tan(2 u) = 2 l cos(n)/(c - 2 l sin(n)).
     """
     factor = 8 / np.pi**2
@@ -187,11 +187,12 @@ def least_harmonic_ratio(flight) -> float:
 
 
 def rule_ratios(oscillator, damper, frequency):
-    """Return the optimum rm W^2 d0/f: a row for each of CRITERIA, a column for each of RULES.
+    """Return an array with optima of rm W^2 d0/(forcing amplitude) by several rules.
 
-    `balance` is rule (18). `gap_harmonic` is FIRST_HARMONIC_RATIO. `flight` is the optimum of the
-    damper's `Flight`. `straight_flight` is the optimum of a `Flight` between rigid walls, for a
-    machine without damping and linear stiffness. `elastic` is `elastic_ratios`, and NaN if e < 1.
+    Each row is for one of CRITERIA, and each column for one of RULES. `balance` is rule (18).
+    `gap_harmonic` is FIRST_HARMONIC_RATIO. `flight` is the optimum of the damper's `Flight`.
+    `straight_flight` is the optimum of a `Flight` between rigid walls, for a machine without
+    damping and linear stiffness. `elastic` is `elastic_ratios`, and NaN if e < 1.
     """
     flight = flight_of(oscillator, damper, frequency)
     straight = Flight(damper.mass_ratio, damper.restitution)

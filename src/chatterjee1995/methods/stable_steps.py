@@ -41,7 +41,7 @@ ACCURACIES = (0.01, 0.1)  # allowed relative error of max |Z1| in each cycle
 # An orbit is followed in steps that change r1 by at most a factor FACTOR, and the state by REACH.
 FACTOR, REACH = 10.0**0.0625, 0.2
 EXACT = 1e-13  # tolerance of the exact orbits, with which runs are compared
-CONFIRMED = 4  # if at least this number of the smallest steps are accurate, `stable_step` is given
+CONFIRMED = 4  # `stable_step` is NaN if fewer than this number of the smallest steps are accurate
 STIFF = 1e3  # least r1 in the fit of `step_slope`; for larger r1 contacts are short
 
 
@@ -99,8 +99,8 @@ def _slope(stiffnesses, steps):
 def stable_steps(oscillator, damper, frequency, *, stiffnesses, scaled_steps, most_steps, periods):
     """Return a dataset: the largest steps at which methods with equal steps are accurate.
 
-    `scaled_steps` are the tested steps, times the natural frequency of a contact. A step is not
-    tested if a cycle has more than `most_steps` such steps. A test takes `periods` cycles.
+    `scaled_steps` are the tested steps, multiplied by the natural frequency of a contact. A step is
+    not tested if a cycle has more than `most_steps` such steps. A test takes `periods` cycles.
     """
     stiffnesses = read_increasing(UNITLESS, "stiffnesses", stiffnesses, **STIFFNESS_RANGE)
     scaled = read_increasing(UNITLESS, "scaled_steps", scaled_steps, above=0)

@@ -27,7 +27,7 @@ def collisions(
 ):
     """Return a dataset: shares of starts that lead to a collision within `periods` cycles.
 
-    `starts` starts lie in a ball of states, and as many in the part of the ball between the walls.
+    There are `starts` starts in a ball of states, and `starts` more in its part between the walls.
     """
     p = pack(oscillator, damper, frequency)
     shares = np.empty((2, 3))

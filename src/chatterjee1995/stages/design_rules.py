@@ -109,7 +109,7 @@ class QuietMotion:
         self._states /= np.array([[frequency**2, frequency] * 2]).T / self._forcing
 
     def at(self, ratio):
-        """Return max |Z1| and first harmonic of Z1, in units of forcing/W^2, and |multiplier|."""
+        """Return max |Z1|, the first harmonic of Z1 (both times W^2/forcing), and |multiplier|."""
         if ratio not in self._known:
             self._known[ratio] = self._orbit(ratio)
         return self._known[ratio]

@@ -75,7 +75,7 @@ def asymptotic_harmonic(damper, frequency) -> float:
 
 
 def decay(damper, p, state) -> tuple:
-    """Return how errors fall with the highest harmonic N: a kind, and powers of 1/N or rates."""
+    """Return how errors should decay: "algebraic" and exponents, or "exponential" and rates."""
     if damper is None:
         return "exponential", np.array(ANALYTIC) * p[FREQUENCY] * singularity_distance(p, state)
     return "algebraic", np.array(ELASTIC if damper.restitution == 1 else INELASTIC)
@@ -189,7 +189,7 @@ def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
 
 
 def cold_status(warm, first) -> int:
-    """Solve again, from coefficients `first`. Return a flag: is the result the solution `warm`?"""
+    """Solve the balance of `warm` from the coefficients `first`. Return a flag for the outcome."""
     found = solve(warm.balance, first)
     if found.status != "converged":
         return flag("cold_status", found.status)
@@ -232,7 +232,7 @@ def _farthest(values, references):
 
 
 def decay_table(harmonics, data, damper, p, exact):
-    """Return how `data["series_error"]` falls with the highest harmonic, by prediction and fit."""
+    """Return the predicted and the fitted decay of `data["series_error"]` over `harmonics`."""
     lowest = asymptotic_harmonic(damper, p[FREQUENCY])
     kind, predicted = decay(damper, p, exact.strobe_states[0])
     scale = np.log(harmonics) if kind == "algebraic" else harmonics

@@ -46,12 +46,12 @@ POLICIES = ["settled", "hold", "phase", "state"]
 HOLDS = (1, 2, 3, 5, 8, 13, 21, 34)  # numbers of cycles for which policies leave the damper on
 QUANTILES = [0.5, 0.95]  # quantiles of the cycles until the goal
 # A run with the damper on, for a number of `cycles`. `released` is true if a rule ended the run,
-# and false if a limit of cycles did. At the end of the run the damper is switched off. The next
-# strobe comes `ahead` cycles later, and `state` holds Z1 and Z1' at this strobe.
+# and false if a limit of cycles ended it. At the end of the run the damper is switched off. The
+# next strobe comes `ahead` cycles later, and `state` holds Z1 and Z1' at this strobe.
 HELD = np.dtype(
     [("released", "?"), ("cycles", "f8"), ("impacts", "i8"), ("state", "f8", 2), ("ahead", "f8")]
 )
-# A rule for the release: kind of policy, number of cycles, index of a phase (see `legs.hold`).
+# A rule for the release (`legs.hold`): kind of policy, number of cycles, index of a forcing phase.
 RULE = np.dtype([("kind", "i8"), ("cycles", "f8"), ("phase", "i8")])
 
 
@@ -173,7 +173,7 @@ class Trials(NamedTuple):
         return held
 
     def labels(self, states):
-        """Return the labels of free motions from states at the strobe, and convergence times."""
+        """Return labels and convergence times of the free motions from `states` at the strobe."""
         settings = self.settling.tolerance, self.settling.limit, self.workers
         return ensemble.label_states(
             self.releases.p, states, math.pi / 2, self.releases.attractors, *settings

@@ -48,8 +48,9 @@ def subharmonic_suppression(
     """Return a dataset of subharmonics with the damper, and of the free subharmonic.
 
     The free subharmonic is searched for from the first to the last of `frequencies`. If it exists,
-    as many other frequencies are used instead: they cover its range, with a margin at both ends. At
-    each frequency in its range, half of the runs switch the damper on in the free subharmonic.
+    new frequencies replace `frequencies`. Their number is the same, and they cover the range of the
+    free subharmonic, with a margin at both ends. At each frequency within the range itself, half of
+    the runs begin in the free subharmonic: the damper is switched on during this motion.
     """
     if not any(getattr(oscillator, name) for name in NONLINEAR):
         raise ValueError(
@@ -173,7 +174,7 @@ class FreeSubharmonic(NamedTuple):
 def free_subharmonic(
     oscillator, first, last, *, starts=96, radius=None, seed=1995, settling, workers=1
 ) -> FreeSubharmonic:
-    """Search for free subharmonics from W = `first` to `last`. Return the most frequent branch."""
+    """Find free subharmonics from W = `first` to `last`. Return the branch found most often."""
     frequencies = np.linspace(first, last, SEARCHED)
     parameters = np.array([pack(oscillator, None, value) for value in frequencies])
     systems = [(None, value) for value in frequencies]

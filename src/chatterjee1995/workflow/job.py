@@ -141,7 +141,7 @@ def _content(files):
 
 
 def _report_file_errors():
-    """Print file errors in one line, also on the terminal, as a full disk may lose the log."""
+    """Print file errors in the log and on the terminal, as a full disk may lose the log."""
     terminal, show = sys.stderr, sys.excepthook
 
     def report(kind, error, trace):

@@ -11,7 +11,7 @@ from pathlib import Path
 
 
 def provenance(configuration, root) -> dict:
-    """Return a dict: versions, commit, configuration and computer that results come from."""
+    """Return the origin of results as a dict: versions, commit, configuration and computer."""
     root = Path(root)
     lock = (root / "requirements.lock").read_bytes()
     text = json.dumps(configuration, sort_keys=True)

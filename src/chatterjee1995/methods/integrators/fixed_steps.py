@@ -70,7 +70,7 @@ def one_step(method, p, drives, h, y):
 
 @kernel
 def run_fixed(method, p, start, t, steps, largest):
-    """Make `steps` steps in a cycle. Write max |Z1| of each cycle (NaN: diverged) to `largest`."""
+    """Take `steps` steps in each cycle. Write max |Z1| per cycle (NaN: diverged) to `largest`."""
     h = 2.0 * math.pi / p[FREQUENCY] / steps
     y = (start[0], start[1], start[2], start[3])
     largest[:] = np.nan

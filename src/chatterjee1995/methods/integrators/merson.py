@@ -43,7 +43,7 @@ def estimated_step(p, side, by_position, t, h, y, tolerance):
 
 @kernel
 def located(p, side, t, h, y, tolerance):
-    """Let a step h end at a wall. Return the new length, the last state and the number of tries."""
+    """Shorten a step h to end at a wall. Return length, last state, and number of tries."""
     low, high = 0.5 * h, h
     state, _ = estimated_step(p, side, False, t, high, y, tolerance)
     beyond = ahead(p, side, state[2])

@@ -34,7 +34,7 @@ _event.terminal, _event.direction = True, -1
 
 
 def solved(method, p, y, span, side, tolerance, left, **options):
-    """Run `solve_ivp` for at most `left[0]` evaluations. The tolerance is relative and absolute."""
+    """Run `solve_ivp` with rtol = atol = `tolerance` for at most `left[0]` evaluations of dy/dT."""
     given = {"args": (p, side, left), "rtol": tolerance, "atol": tolerance} | options
     with np.errstate(all="ignore"):
         return solve_ivp(derivative, span, y, method, **given)
@@ -101,7 +101,7 @@ class SciPy(Integrator):
 # a term costs 4 * 2 operations: a product and an addition for each of 4 components. DOP853 sums
 # about 6 terms to get the state at which it evaluates the rate. To get the end and the error of a
 # step it sums 4 terms for each evaluation in the step. LSODA sums 21 terms, and solves 4 linear
-# equations with 2 * 4^2 operations. `factorising` is the cost of its LU factorisation: 2/3 * 4^3.
+# equations with 2 * 4^2 operations. `factorising` is the cost of an LU factorisation: 2/3 * 4^3.
 INTEGRATORS = (
     SciPy("DOP853", 4, operations=4 * 2 * (6 + 4)),
     SciPy("LSODA", 5, operations=4 * 2 * 21 + 2 * 4**2, factorising=2 * 4**3 // 3),
