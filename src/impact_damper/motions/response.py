@@ -61,7 +61,7 @@ def frequency_response(
         Random starts (initial states) at each frequency.
     radius : float, optional
         Random starts are uniform in a ball with this radius around rest, and the loose mass is in
-        its gap. Without a radius, |Z1| and |Z1'| of random starts reach up to three times their
+        its gap. Without a radius, Z1 and Z1' of random starts reach up to three times their
         largest values in motions without the damper. Further starts are then not random: for
         example states on motions without the damper.
     whole_gap : bool
