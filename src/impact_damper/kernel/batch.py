@@ -116,11 +116,10 @@ def enqueue(queues, waiting, m, kind):
 
 @kernel
 def choose(pool, chosen):
-    """Take up to LANES trajectories from the longest queue.
+    """Take up to LANES trajectories from the longest queue. Put their indices into `chosen`.
 
-    Return how many trajectories were taken, and the index of the queue, which is the kind of step.
-    `chosen` receives the index of a trajectory for each lane. If fewer than LANES trajectories were
-    taken, the lanes that are left over receive the last of the indices again.
+    Return how many trajectories were taken, and the kind of step for which this queue is. If fewer
+    than LANES trajectories were taken, the last index is repeated until `chosen` is full.
     """
     waiting = pool.waiting
     kind = FLIGHT
@@ -198,9 +197,9 @@ def raise_largest(pool, chosen, count, kind):
     """After a step, update `pool.largest`, the largest |Z1| of each chosen trajectory.
 
     The largest |Z1| in the step is computed only if an upper bound on it exceeds `pool.largest`.
-    The bound is `ends`, the larger |Z1| at both ends of the step, plus `rise`. In contact `rise` is
-    the sum of |x[k]| t^k over k >= 1, with the Taylor coefficients x[k] of Z1 and the step's length
-    t. In flight `rise` follows from CHANGE, an upper bound on the change of Z1' in the step.
+    The bound is `ends` + `rise`. `ends` is the larger of |Z1| at the beginning and |Z1| at the end.
+    In contact `rise` is the sum of |x[k]| t^k over k >= 1, with Taylor coefficients x[k] of Z1 and
+    the step's length t. In flight `rise` follows from CHANGE, a bound on the change of Z1'.
     """
     a, order = pool.a, CONTACT_ORDER if kind & 1 else FLIGHT_ORDER
     rise, series = np.zeros(LANES), np.empty(max(FLIGHT_ORDER, CONTACT_ORDER) + 1)

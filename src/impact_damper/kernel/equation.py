@@ -5,7 +5,7 @@
 This is equation (3) of the paper with three further parameters: k3, F and U. Some functions yield
 lines of Python code, which `instances` joins into kernels: docs/explanation/series.md. These lines
 use Taylor coefficients number k = 0, 1, ... of three functions: xk of Z1, qk of the depth in a wall
-and gk of Z1'' without the wall's force. D is the coefficient of the walls' dashpot.
+and gk of Z1'' without the wall's force.
 """
 
 import math
@@ -47,7 +47,7 @@ def external_force(p, t):
 
 @kernel_only
 def spring(p, x, lane=0, lanes=1):
-    """Return the restoring force of the spring at Z1 = x."""
+    """Return the spring's restoring force at Z1 = x. For p and `lane` see `forcing_amplitude`."""
     return (p[STIFFNESS * lanes + lane] + p[CUBIC * lanes + lane] * x * x) * x
 
 
@@ -107,7 +107,7 @@ def coefficients(at):
 
 
 def beginning(at):
-    """Yield lines of code that `motion` needs first. `at(name)` is code that reads a parameter."""
+    """Yield code lines that set variables for `motion`. `at(name)` is code for a parameter."""
     yield from coefficients(at)
     yield "double = 2.0 * cubic"
     yield "s0 = cubic * x0 * x0"

@@ -205,8 +205,8 @@ class Writer:
     def series(self, phase, across=False):
         """Return the code of a kernel that computes the Taylor series of a step.
 
-        It computes X (of Z1), G (of Z1'' without the wall's force), and in contact Q (of the depth
-        in the wall). Q takes gravity, friction and a moving base into account if `across` is true.
+        X is the series of Z1, and G is the series of Z1'' without the wall's force. In contact Q is
+        the series of the depth. If `across` is true, gravity, friction or a moving base act on Q.
         """
         lines = [
             f"cosine = {self.at('COSINE')}",

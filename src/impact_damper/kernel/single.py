@@ -66,7 +66,7 @@ def polynomial(c, order, t):
 
 @kernel
 def extremum(c, order, length, start):
-    """Return the largest modulus of the polynomial c on [0, `length`], but at least `start`."""
+    """Return the larger of `start` and the largest |c[0] + c[1] t + ...| for t in [0, `length`]."""
     farthest = 0.0
     for k in range(order, 0, -1):
         farthest = (farthest + abs(c[k])) * length
@@ -137,7 +137,7 @@ def load(p, y, side, tolerance, a):
 
 @kernel_only
 def step_loaded(t, longest, a):
-    """Do a step of at most `longest` from time t. Return its length, and the side at its end."""
+    """Do a step from the time t. Return its length, at most `longest`, and the side at its end."""
     a[TIME] = t
     a[LONGEST] = longest
     if a[SIDE] == 0.0:
@@ -173,7 +173,7 @@ def step(p, y, side, t, longest, tolerance, work):
 
 @kernel_only
 def state_in_step(work, side, y, t):
-    """Return the state at time t of the last step in `work`. The state at t = 0 was y."""
+    """Return the state at time t of the last step in `work`. The step began at t = 0 in state y."""
     a = pointer(work)
     order = FLIGHT_ORDER if side == 0 else CONTACT_ORDER
     x, v = polynomial(work[X:], order, t)

@@ -106,7 +106,7 @@ def _numbered(values):
 
 
 def read_increasing(scales, name, values, kind="number", count=1, **bounds) -> np.ndarray:
-    """Return a dimensionless array, or raise an error if it does not increase or is too short."""
+    """Return a dimensionless array. The numbers must increase. At least `count` are needed."""
     numbers = read_numbers(scales, name, values, kind, **bounds)
     if len(numbers) < count or np.any(np.diff(numbers) <= 0):
         given = shown(list(getattr(values, "values", values)))

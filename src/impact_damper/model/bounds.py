@@ -126,7 +126,7 @@ def check_frequency(value):
 def check_starts(starts, points, least=1):
     """Raise an error if `starts` is below `least`, or if there are more than MOST_RUNS runs.
 
-    There are `starts` runs at each of `points` parameter values. `starts` = `least` is no error.
+    There are `starts` runs at each of `points` parameter values. `least` starts are always allowed.
     """
     most = max(least, MOST_RUNS // points)
     check_count("starts", starts, least=least, most=most, why=f"memory holds {MOST_RUNS} runs")

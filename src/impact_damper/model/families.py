@@ -51,12 +51,11 @@ def read_followed(model, parameter, span) -> tuple:
 
 
 def family_of(oscillator, damper, frequency, parameter, span):
-    """Return three results for a system whose `parameter` varies over a `span`.
+    """Return (function, coordinate, ends) for a system whose `parameter` varies over a `span`.
 
-    The parameter is expressed by a coordinate. For parameters in LINEAR, such as the frequency, the
-    coordinate is the parameter's value. For others it is the logarithm of the value. The results
-    are a function that returns the packed parameters at a coordinate, the coordinate of the given
-    system, and a pair: the coordinates of both ends of the span.
+    The coordinate is the parameter's value if the parameter is in LINEAR, otherwise the logarithm
+    of the value. function(x) returns the packed parameters at the coordinate x. The second result
+    is the coordinate of the given system. `ends` has the coordinates of both ends of the span.
     """
     part = {None: None, Oscillator: oscillator, Damper: damper}[PARAMETERS[parameter]]
     value = frequency if part is None else getattr(part, parameter)

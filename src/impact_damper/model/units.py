@@ -140,7 +140,7 @@ def absolute_value(value, quantity) -> float | None:
 
 
 def physical(quantity, meaning="", **others):
-    """Return a dataclass field. `others` are bounds of its value in SI units, and its default."""
+    """Return a dataclass field. `others` has the field's bounds in SI units, and its default."""
     default = {key: others.pop(key) for key in ("default",) if key in others}
     unit = QUANTITIES[quantity].unit
     facts = {"quantity": quantity, "bounds": others, "meaning": meaning}

@@ -143,7 +143,7 @@ def step_outside(a, i, t):
     fine = abs(a[Y0 + i]) + clearance + lag * (abs(a[Y1 + i]) + abs(slope))
     fine *= ROUNDING
     bent = bound + lag * a[JERK_BOUND + i]
-    # No contact with the wall WALL begins while q or f = q + LAG q' is negative.
+    # q is WALL * Z2 - d0 and f is q + LAG q'. No contact with WALL begins while q or f is negative.
     deep = safe_advance(-q, slope, bound) if q <= fine else 0.0
     pressed = safe_advance(-f, rise, bent) if f <= fine else 0.0
     across = safe_advance(2.0 * clearance + q, -slope, bound)

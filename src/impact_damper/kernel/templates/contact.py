@@ -32,10 +32,10 @@ def distance_ahead(a, i, t):
 
 
 def expect_contact(a):
-    """In lanes in which a contact is expected, move T from LENGTH to the contact's expected time.
+    """Set T to the estimated time of a contact, if a contact is expected in the flight of a lane.
 
     A contact is expected if the first three terms of the Taylor series of Z2 give |Z2| > d0 at the
-    time LENGTH. `guess_contact` estimates when it begins.
+    time LENGTH. In lanes in which no contact is expected, T keeps its value, which is LENGTH.
     """
     expected = 0
     for i in range(LANES):
@@ -68,21 +68,20 @@ def find_contact(a):
 
     If there is such a time, MODE becomes MET, and WALL becomes the wall in contact. Otherwise MODE
     becomes MISSED, and T keeps its value. END_Z1 and END_Z1_SLOPE hold Z1 and Z1' at T, before the
-    call and after it. `flight_step` has called `expect_contact` before. If that function expects a
-    contact, T is an estimate of its time, and T < LENGTH. Since the estimate may be too early, a
-    contact slightly after T is found too. If the loose mass sticks, or if the flight begins at
-    |Z2| > d0, APART is positive. Then MODE becomes MISSED without a search.
+    call and after it. If T < LENGTH before the call, T is the time at which `expect_contact`
+    expects a contact. Since this time may be too early, a contact slightly after T is found too. If
+    the loose mass sticks, or if the flight begins at |Z2| > d0, MODE becomes MISSED at once.
 
     Bounds decide most flights without a search. `change` is an upper bound on the change of Z2' in
-    the flight. The wall ahead is the wall that the loose mass approaches at the beginning.
+    the flight. The loose mass approaches the wall ahead at the beginning of the flight.
 
     - `clear` is true if the loose mass cannot reach the wall ahead: the values of Z2 at 0 and at T
       are more than `sag` away from this wall. Z2 as a function of time deviates by at most `sag`
       from the straight line between both values.
-    - `left` is true if a lower bound on the distance to the wall behind is positive. The bound is
-      the mean of two others: one from the straight line, one from Z2' at the beginning.
-    - `certain` is true if a lower bound on the speed towards the wall ahead is positive. The bound
-      is the mean of two others, which follow from `change` and Z2' at the beginning or at the end.
+    - `left` is true if a lower bound on the distance to the opposite wall is positive. This bound
+      is a mean of two: one from `change` and the straight line, one from `change` and Z2' at 0.
+    - `certain` is true if a lower bound on the speed towards the wall ahead is positive. This bound
+      is a mean of two: one from `change` and Z2' at 0, one from `change` and Z2' at T.
     """
     undecided = 0
     expected = 0

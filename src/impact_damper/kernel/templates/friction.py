@@ -68,7 +68,7 @@ def let_go(a):
 
 
 def load_rates(a):
-    """If LANES is 1, compute H = DAMPING/k and D = DASHPOT/k after DAMPING or DASHPOT changed."""
+    """If LANES is 1, write DAMPING/k into the rows H, and DASHPOT/k into the rows D (orders k)."""
     if LANES == 1:
         for k in range(max(FLIGHT_ORDER, CONTACT_ORDER) - 1):
             a[H + k] = a[DAMPING] * (1.0 / max(k, 1))

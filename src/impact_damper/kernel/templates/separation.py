@@ -60,7 +60,7 @@ def predict_separation(a):
 
 
 def find_separation(a):
-    """Move T to the time of separation: the first in [0, LENGTH] at which q + LAG q' falls to zero.
+    """Set T to the first time in [0, LENGTH] at which q + LAG q' falls to zero: the separation.
 
     Before the call T is a guess. If there is a separation, MODE becomes MET. If there is certainly
     none, T becomes LENGTH and MODE becomes MISSED. END_Z1 and END_Z1_SLOPE receive Z1 and Z1' at T.
@@ -129,7 +129,7 @@ def find_separation(a):
 
 
 def bound_lagging(a):
-    """Turn BOUND, an upper bound on |q''|, into one on |q'' + LAG q'''|. q is the depth."""
+    """Change BOUND from a bound on |q''| into a bound on |q'' + LAG q'''|. q is the depth."""
     lagging = 0
     for i in range(LANES):
         lagging += 1 if a[LAG + i] > 0.0 else 0

@@ -34,8 +34,8 @@ def limit_length(a, series, order, excess):
 
     The coefficients c[k] of the displacement stand in the rows from `series` on, and the highest k
     is `order`. At the new LENGTH t, each of the last two terms k c[k] t^(k-1) has at most the
-    modulus `largest_tail`. Before the call TAIL has the largest modulus of last terms at the
-    step's end. If TAIL is at most `excess` times `largest_tail`, LENGTH is not changed.
+    modulus `largest_tail`. Before the call TAIL has the largest modulus of any velocity's last two
+    terms at the old LENGTH. If TAIL is at most `excess` * `largest_tail`, LENGTH is not changed.
     """
     for i in range(LANES):
         most = bits(largest_tail(a, i))
