@@ -124,8 +124,8 @@ def early_release(datasets):
 def by_policy(datasets, case, policy):
     """Return the share of runs in which a release policy succeeds, and the median time to success.
 
-    `case` is a dataset of the stage `migration`. Only runs at the frequency of `case`, with the
-    same oscillator and damper, count. Without such runs both results are NaN. A run succeeds if it
+    `case` is a dataset of the stage `migration`. Only runs with the same oscillator, damper
+    and frequency as in `case` count. Without such runs both results are NaN. A run succeeds if it
     reaches the goal within 350 cycles. The time is in cycles, and infinite without success.
     """
     damper, frequency = damper_of(case), reading.parameter(case, "frequency")

@@ -11,13 +11,13 @@ AS_LARGE = 0.95  # a subharmonic counts as unchanged if max |Z1| / (free max |Z1
 
 
 def _remaining(datasets, name):
-    """Return a dict: facts on stable orbits of period 3, 6, 9, ... cycles, for a curve with damper.
+    """Return a dict of numbers on the stable orbits of period 3, 6, 9, ... cycles of a curve.
 
     `band`: width in W of the suppression band by harmonic balance.
     `in_band`: width in W over which such orbits exist, in the suppression band.
     `between`: width in W over which such orbits exist, in the range of the free subharmonic.
     `ratio`: the largest (max |Z1| of such an orbit)/(max |Z1| of the free subharmonic), at equal W.
-    `ratio_in_band`: the largest value of the same fraction in the suppression band.
+    `ratio_in_band`: the largest value of this fraction at all W in the suppression band.
     """
     branches, free = orbits.of_curve(datasets, name)
     part = orbits.stable_subharmonics(branches)

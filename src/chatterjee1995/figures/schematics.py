@@ -143,7 +143,7 @@ def triad(axes, x, y):
 
 
 def planes(axes, off, on):
-    """Draw two planes of states: two basins without the damper, and one basin with the damper."""
+    """Draw two planes of states: at the height `off` with two basins, at `on` with one basin."""
     right = 5.3
     v = np.linspace(0, 2, 100)
     border = 2.5 + 0.22 * np.sin(2.6 * v)

@@ -36,7 +36,7 @@ def pieces(branches) -> pd.DataFrame:
 
     `lower`, `upper`: the lower and the higher frequency W of the two orbits.
     `fewest`, `contacts`: the smaller and the larger of the two orbits' contacts per cycle.
-    `restitution`: the least (speed after)/(speed before a contact) of all contacts of both orbits.
+    `restitution`: the least (speed after)/(speed before contact) among all contacts of both orbits.
     `frequency`, `size` (max |Z1|), `amplitude`, `loose`: means over the two orbits.
     `frequency_change`, `size_change`, `amplitude_change`, `loose_change`: the value at the second
     of the two orbits minus the value at the first.

@@ -63,7 +63,7 @@ class Table(Shown):
 
 @dataclass(frozen=True)
 class Kind(Shown):
-    """A kind of figure. The function that draws it is `draw_<name>`, except for a schematic."""
+    """A kind of figure, drawn by `draw_<name>`. A schematic names its drawing in the key `data`."""
 
     room = "figures"
     most: int = 6  # largest number of entries in a figure
