@@ -16,7 +16,7 @@ MODELS = {
 }
 START_HARMONICS = 15  # shooting and rigid impacts start from the balance with this highest harmonic
 
-# Names of the lists of tolerances in the section `comparison`, for `Integrator.tolerances`.
+# Names of the lists of tolerances in the section `comparison` of the configuration.
 TOLERANCE_KEYS = ("taylor", "merson", "scipy")
 
 

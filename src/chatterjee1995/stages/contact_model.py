@@ -116,7 +116,7 @@ def unloaded_table(restitutions):
 
 
 def extreme_motions(oscillator, damper, frequency, starts, seed, settling):
-    """Run motions from random starts. Return the smallest settled motion, and the largest motion.
+    """Run motions from random starts. Return the smallest settled one, and the largest of all.
 
     Only motions with contacts count. The largest motion need not have settled. If none has settled,
     the first result is None. If no motion has contacts, both results are None.

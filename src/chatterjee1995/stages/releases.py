@@ -87,8 +87,8 @@ def migration(
 
     A run ends at the goal, after `periods` cycles, or after `switchings` releases. The damper is
     switched off at a random phase after the motion has settled, or after `longest_hold` cycles.
-    `releases` releases take place from each settled motion with the damper. `releases` other
-    motions have one release each, in the transient and within the first `lifetime` cycles.
+    `releases` releases take place from each settled motion with the damper. In addition, each of
+    `releases` runs has one release, in its transient and within the first `lifetime` cycles.
     """
     case = release_case(oscillator, damper, frequency, settling)
     roots = np.random.SeedSequence(seed).spawn(2)
@@ -190,8 +190,8 @@ def _life(p, path, record, tolerance):
 def release_data(case, motions, entries, settling):
     """Return a dict of the variables on releases. The first axis is the motion with the damper.
 
-    Index 0 stands for all motions that have not settled. `entries` are the releases from them. The
-    other indices stand for `motions`. Releases from these are equally spaced over each period.
+    Index 0 stands for all motions that have not settled, and `entries` are their releases. The
+    other indices stand for `motions`, whose releases are equally spaced over each period.
     """
     number = len(entries)
     rows = [entries]
@@ -258,7 +258,7 @@ def release_scan(
     """Return a dataset of the free motions to which releases lead, at each of `frequencies`.
 
     `starts` random starts lead to settled motions. Each of these has `releases` releases.
-    `releases` other motions have one release each, in the transient, within `lifetime` cycles.
+    In addition, each of `releases` runs has one release, in its transient (<= `lifetime` cycles).
     """
     cases = [release_case(oscillator, damper, frequency, settling) for frequency in frequencies]
     search = {"starts": starts, "radius": radius, "seed": seed, "settling": settling}

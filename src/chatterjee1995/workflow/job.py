@@ -1,4 +1,4 @@
-"""A job of the workflow. Scripts import this module first, which makes later imports faster."""
+"""A job of the workflow. Scripts import this module first, so that later imports are faster."""
 
 import atexit
 import gc

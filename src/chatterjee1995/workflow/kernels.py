@@ -21,7 +21,7 @@ def compile_all(processes, orders) -> None:
     from chatterjee1995.workflow.job import end_with_parent
     from impact_damper.command.warm_up import warm_up_orbits, warm_up_settling
 
-    # Garbage collection would take a fifth of the time. Forked processes too do without it.
+    # Garbage collection would take a fifth of the time. Forked processes inherit this setting.
     gc.disable()
     fork = get_context("fork")
     with ProcessPoolExecutor(processes, fork, initializer=end_with_parent) as pool:
