@@ -2,7 +2,7 @@
 
 from impact_damper.data.variables import register
 
-# At a lost gap the search found more than KEEPS x the displacement promised for the chosen gap.
+# A gap is "lost" if the search found there a displacement above KEEPS x the promised displacement.
 # A damper is worth building if it lowers the largest displacement by the fraction WORTH or more.
 KEEPS, WORTH = 1.1, 0.25
 

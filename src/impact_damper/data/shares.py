@@ -45,7 +45,7 @@ def starts_needed(share) -> int:
 def escape_rate(lives, horizon):
     """Return the rate per cycle at which motions end, and both ends of its 95 % interval.
 
-    Motion i ends after lives[i] cycles. Ends after more than `horizon` cycles are not observed.
+    Motion i ends after lives[i] cycles. Only the first `horizon` cycles of a motion are observed.
     """
     captures = np.sum(lives <= horizon)  # number of ends that are observed
     exposure = np.sum(np.minimum(lives, horizon))  # observed cycles of all motions, added up

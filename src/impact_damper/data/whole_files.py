@@ -8,7 +8,7 @@ from pathlib import Path
 DELETE = "delete it and run the same command again"  # the workflow's advice about a broken file
 
 # An HDF5 file begins with SIGNATURE and a superblock. If the superblock begins with one of
-# VERSIONS, the bytes LENGTH of the file hold the file's length.
+# VERSIONS, the slice LENGTH of the file's bytes holds the length of the file.
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
 VERSIONS = (b"\x02\x08\x08", b"\x03\x08\x08")
 LENGTH = slice(28, 36)

@@ -18,8 +18,8 @@ from impact_damper.design.task import labelled
 from impact_damper.model.machine import TunedAbsorber
 from impact_damper.theory.roots import polynomial_roots
 
-# An absorber is tuned to lower the largest displacement at POINTS frequencies. They extend on both
-# sides of the resonance to REACH widths of the resonance peak. If a band is given, frequencies
+# An absorber is tuned to lower the largest displacement at POINTS frequencies. Their distance from
+# the resonance is at most REACH x the width of the resonance peak. If a band is given, frequencies
 # outside the band are left out, and POINTS evenly spaced frequencies in the band are added.
 POINTS, REACH = 1001, 8.0
 # The optimizer `differential_evolution` searches ln(absorber frequency/machine frequency) within
@@ -100,7 +100,7 @@ def _frequencies(machine, ratio, band):
 
 
 def response(machine, absorber, frequencies, force_shares=(1.0,)) -> np.ndarray:
-    """Return the machine's amplitude (m) at each frequency (Hz) for each factor of the excitation.
+    """Return amplitudes (m) at each frequency (Hz), for the excitation times each force share.
 
     Without a cubic spring the amplitudes are exact. With a cubic spring they are the largest stable
     solutions of the harmonic balance, or infinite if none lies below the barrier of the spring.

@@ -22,7 +22,7 @@ STREAMS = "search compared confirmed orbit forces masses repeated shocks searche
 # TOGETHER: `Motions.largest` runs motions of up to TOGETHER cells before it computes bounds again.
 DRAWN, FOLLOWED, TOGETHER = 4, 64, 8
 # A regime is a group of motions of one cell. The motions that have not settled are sorted by their
-# largest displacements. A new regime begins where a displacement exceeds APART x the one before.
+# largest displacements. A new regime begins where a displacement exceeds APART x its predecessor.
 APART = 1.3
 # A block peak is the largest displacement of a motion in a block of BLOCK forcing cycles. From the
 # TAIL largest block peaks `return_level` extrapolates the largest displacement in HORIZON cycles.

@@ -18,9 +18,9 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 def measured_costs(p, y, begin, periods) -> dict:
     """Return a dictionary of the dimensionless costs of a motion over `periods` forcing cycles.
 
-    `y` is the state at the time `begin`. `impact_rate` and `impact_speed` include only contacts
-    that begin in these cycles. Accelerations are absolute. If the motion escapes, rates, forces,
-    accelerations and powers are NaN. `absolute_displacement` is NaN unless the base moves.
+    `p`: packed parameters. `y`: state at the time `begin`. `impact_rate` and `impact_speed` include
+    only contacts that begin in these cycles. Accelerations are absolute. Rates, forces,
+    accelerations and powers are NaN after an escape, `absolute_displacement` if no base moves.
     """
     time = periods * 2 * np.pi / p[FREQUENCY]
     panels = sampled(p, y, begin, begin + time, POLISH_TOLERANCE)

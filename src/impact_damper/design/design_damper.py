@@ -219,7 +219,7 @@ class Steps:
         self.made = json.dumps(inputs | {"sources": _sources()}, sort_keys=True)
 
     def step(self, name, compute, *given):
-        """Return the result of `compute(*given)`, or the dataset that an earlier run has kept."""
+        """Return `compute(*given)`, or the dataset that an earlier run saved as `name`."""
         title = name.capitalize() if self.progress else None
         if self.folder is None:
             return compute(*given, progress=title)

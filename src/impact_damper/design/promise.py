@@ -17,7 +17,7 @@ CORNERS = 8  # largest number of corners. In a corner each value is at one end o
 # the fraction PEAK. A parabola through the largest bound and the bounds at both neighbouring
 # frequencies has a maximum that exceeds the largest bound by at most the fraction PEAK.
 NEAR, PEAK, SPLITS = 0.9, 0.01, 4
-FEWEST = 9  # least number of frequencies with which a set other than the nominal one begins
+FEWEST = 9  # least number of frequencies at which a set other than the nominal one is run first
 # A cell has rare motions if its bound exceeds RARE x the largest usual displacement of all cells.
 # Such cells are run again with MORE x as many starts, in groups of SOME cells. Groups with larger
 # bounds come first. Let b be the least old bound in a group. If a new bound in this group exceeds
@@ -152,7 +152,7 @@ def is_peak_known(frequencies, bounds, before) -> bool:
 
 
 def beside_peak(frequencies, bounds) -> list:
-    """Return the middles of the intervals on both sides of the frequency of the largest bound."""
+    """Return the middle between the frequency of the largest bound and each of its neighbours."""
     k = int(np.argmax(bounds))
     ends = frequencies[max(k - 1, 0) : k + 2]
     return [float(middle) for middle in (ends[1:] + ends[:-1]) / 2]
@@ -179,7 +179,7 @@ def factor_sets(task, gap) -> np.ndarray:
 
 
 def other_sets(task, gap) -> np.ndarray:
-    """Return `factor_sets` with 1 as the factor of the gap in each row, without repeated rows."""
+    """Return the rows of `factor_sets`, with the factor of the gap set to 1 and no row twice."""
     rows = factor_sets(task, gap)
     rows[:, 0] = 1
     return np.unique(rows, axis=0)

@@ -17,9 +17,8 @@ from impact_damper.design.task import NOMINAL, Task
 # The first search runs up to GAPS gaps at the frequencies `Task.few(FREQUENCIES)`, with STARTS
 # random starts at each gap and frequency.
 GAPS, FREQUENCIES, STARTS = 80, 5, 10
-# After the first search come up to ROUNDS rounds, with CLOSE_STARTS random starts in each cell. The
-# frequencies of a round are `Task.few(CLOSE_FREQUENCIES)`, and those at which the largest
-# displacements at the best gaps have occurred so far.
+# Up to ROUNDS rounds follow the first search. A round has CLOSE_STARTS random starts in each cell,
+# and runs the frequencies `Task.few(CLOSE_FREQUENCIES)` and those in `Curve.critical`.
 CLOSE_FREQUENCIES, CLOSE_STARTS, ROUNDS = 11, 24, 5
 # A gap has one cell for each frequency and set of factors. The cell with the largest displacement
 # is run again, with more starts, if this displacement exceeds DOUBTED x the largest usual
@@ -130,10 +129,10 @@ class Curve:
         return max(good, key=lambda each: each.high / each.low)
 
     def lost(self, gap, size) -> np.ndarray:
-        """Return the lost gaps next to `gap` (row 0) and the displacements at them (row 1), in mm.
+        """Return the nearest lost gap on each side of `gap`, and the displacement there, in mm.
 
         A gap is lost if it lies outside the tolerance of `gap` and its displacement exceeds `size`.
-        Column 0 is for smaller gaps, column 1 for larger gaps; NaN if there is no lost gap.
+        Rows: gap, displacement. Columns: smaller gap, larger gap. NaN stands for no lost gap.
         """
         found = np.full((2, 2), np.nan)
         for side, end, step in zip((0, 1), self.task.gap_ends(gap), (-1, 1), strict=True):
@@ -159,7 +158,7 @@ class Curve:
         return rows
 
     def critical(self) -> np.ndarray:
-        """Return the frequencies (Hz) at which the largest displacements at the best gaps occur."""
+        """Return the worst frequency (Hz) of each gap with a small displacement (see CANDIDATE)."""
         return np.unique(self.worst[self.sizes <= CANDIDATE * self.nominal()[1].min()])
 
     def unclear(self) -> np.ndarray:
@@ -196,12 +195,12 @@ def middle_gap(first, last) -> float:
 
 
 def score(task, gaps, frequencies, starts, stream, progress=None, sets=(NOMINAL,)) -> tuple:
-    """Return displacement (mm), frequency (Hz) and set of factors of each gap's worst cell.
+    """Return three sequences, with an entry for the worst cell at each of `gaps` (mm).
 
-    The result is three sequences over `gaps` (mm). A cell is a gap, one of `frequencies` (Hz) and
-    one of `sets` (of factors). Each cell has `starts` random starts (`stream`: see `draw_starts`).
-    About the fraction (1 - task.share)/2 of the motions of a cell exceed the displacement of the
-    cell. The worst cell has the largest displacement. If only rare motions reach this
+    The first holds displacements (mm), the second frequencies (Hz), the third sets of factors. A
+    cell is a gap, one of `frequencies` and one of `sets`. It has `starts` random starts (`stream`:
+    see `draw_starts`). About the fraction (1 - task.share)/2 of the motions of a cell
+    exceed its displacement. The worst cell has the largest displacement. If only rare motions reach this
     displacement, the worst cell is run again (see DOUBTED).
     """
     conditions = [(f, tuple(each)) for f in frequencies for each in sets]

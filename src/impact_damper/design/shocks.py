@@ -16,7 +16,7 @@ from impact_damper.model.packed import FREQUENCY
 SHOCKS, WIDEST = 32, 2.0
 # A motion runs for LONGEST cycles. Its peak is found in each block of BLOCK cycles.
 LONGEST, BLOCK = 1000, 10
-LIMITS = (10, 30, 100, 300, 1000 - BLOCK)  # cycles after which returned starts are counted
+LIMITS = (10, 30, 100, 300, 1000 - BLOCK)  # convergence times of the finite-time basin stability
 
 
 def shocks(task, decision, progress=None) -> xr.Dataset:
@@ -40,7 +40,7 @@ def shocks(task, decision, progress=None) -> xr.Dataset:
     drawn = draw_starts(task, [cell], task.effort.starts, ("shocks", 1))[0]
     starts = convergence_times(task, p, drawn, promised)
     critical = np.abs(changes)[np.isinf(returned)].min(initial=np.inf)
-    # Impulses of the size `critical` are too large. Try slightly smaller impulses.
+    # After an impulse of the size `critical` the motion stays large. Try slightly smaller impulses.
     first = changes[np.isinf(returned) & (np.abs(changes) <= critical)]
     steps = most / SHOCKS * np.arange(SHOCKS) / SHOCKS
     fine = (first[:, None] - np.sign(first)[:, None] * steps).ravel()
@@ -56,14 +56,14 @@ def shocks(task, decision, progress=None) -> xr.Dataset:
 
 
 def times_after(task, p, state, changes, promised):
-    """Return the convergence time after each of `changes` of the machine's velocity in `state`."""
+    """Return convergence times from `state` with changes[i] added to the machine's velocity."""
     states = np.tile(state, (len(changes), 1))
     states[:, 1::2] += np.asarray(changes)[:, None]
     return convergence_times(task, p, states, promised)
 
 
 def convergence_times(task, p, states, promised) -> np.ndarray:
-    """Return the number of cycles after which each motion stays below `promised`, or infinity."""
+    """Return the number of cycles until each motion from `states` stays below `promised`, or inf."""
     rows = np.tile(p, (len(states), 1))
     peaks = peaks_of_blocks(task, rows, states.copy(), LONGEST // BLOCK, BLOCK)
     loud = peaks > promised

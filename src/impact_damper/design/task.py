@@ -47,11 +47,11 @@ ABSOLUTE = {
     "stiffness": "stiffness",
     "damping": "damping",
 }
-# The least gap that a design considers is LEAST_GAP x the smaller of two gaps: the least gap that
-# rule (18) gives at a frequency of the band, and the greatest gap that the design considers.
+# Rule (18) gives a gap at each frequency of the band. r is the smallest of these gaps, and g is the
+# greatest gap that a design considers. The least gap that it considers is LEAST_GAP x min(r, g).
 LEAST_GAP = 0.15
-# If the machine without damper escapes at all frequencies, the greatest gap that a design considers
-# is ESCAPING x the greatest gap that rule (18) gives at a frequency of the band.
+# Rule (18) gives a gap at each frequency of the band. If the machine without damper escapes at all
+# frequencies, the greatest gap that a design considers is ESCAPING x the largest of these gaps.
 ESCAPING = 4.0
 # An absorber is tuned for all forcing frequencies from ABSORBED[0] x f1 to ABSORBED[1] x f2. Among
 # the ends of the band and the ends of `Task.resonance`, f1 is the lowest and f2 the highest.

@@ -1,7 +1,7 @@
 """Transients of a machine with and without its damper: a swept sine, and the unforced decay.
 
 A continuous sweep is replaced by a stepped sweep, because the integrator needs a fixed frequency.
-Each cycle of the stepped sweep has the mean frequency of this cycle in the continuous sweep.
+Cycle k of the stepped sweep has the mean frequency of cycle k of the continuous sweep.
 """
 
 import math
@@ -35,7 +35,7 @@ TOLERANCE = 1e-10
 # this rate the resonance peak of a linear machine is 6 % lower than in steady state.
 # MOST_SWEPT: largest number of cycles in a sweep. If SWEEP gives more, the rate is raised.
 SWEEP, MOST_SWEPT = 4.0, 6000
-STEEPEST = 0.01  # largest relative change of the frequency of a sweep in a forcing cycle
+STEEPEST = 0.01  # largest relative change of the frequency in one cycle of a sweep
 # Before each sweep, with or without the damper, the first frequency is held for the time in which a
 # vibration of the machine alone would decay to SETTLED x its amplitude, but at most HELD cycles.
 SETTLED, HELD = 0.01, 10**5
@@ -60,10 +60,11 @@ def transients(task, choice, progress=None) -> xr.Dataset:
 
 
 def swept_sine(machine, damper, band, rate) -> xr.Dataset:
-    """Return a dataset of sweeps up and down over a band (Hz) at a rate (Hz/s), from steady state.
+    """Return a dataset of sweeps up and down over a band (Hz) at a rate (Hz/s).
 
-    The envelope is the largest displacement in each cycle. If the motion escapes over the barrier
-    of a softening spring, the envelope is infinite in the cycle of the escape, and NaN afterwards.
+    Each sweep begins in steady state. The envelope is the largest displacement in each cycle. If
+    the motion escapes over the barrier of a softening spring, the envelope is infinite in the cycle
+    of the escape, and NaN afterwards.
     """
     least, most = band
     count = int((most**2 - least**2) / (2 * rate))
@@ -154,7 +155,7 @@ def decay(machine, damper, displacement):
 
 
 def lowest_energy(p, y) -> float:
-    """Return the energy of machine and loose mass at rest.
+    """Return the energy of machine and loose mass at rest, with the packed parameters `p`.
 
     The loose mass rests where friction holds it in the state `y`, or else where gravity puts it.
     """
