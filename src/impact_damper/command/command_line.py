@@ -174,7 +174,7 @@ def response(
 
 
 def different(sizes, shares, alike=1e-4):
-    """Return {size: share}. Shares of sizes that differ by at most the fraction `alike` are added."""
+    """Return {size: share}. Shares are added if sizes differ by at most the fraction `alike`."""
     found, last = {}, -1.0
     for size, share in sorted(zip(map(float, sizes), map(float, shares), strict=True)):
         if size > last * (1 + alike):

@@ -118,7 +118,7 @@ Body = create_model("Body", __base__=Given, **fields_of(Machine))
 
 
 def deviation_of(what, *absolute):
-    """Return a field for the tolerance of `what`: a fraction, or a quantity of a kind in `absolute`."""
+    """Return a field: tolerance of `what`, as a fraction or as a quantity named in `absolute`."""
     meaning = f"largest relative deviation of {what}"
     return quantity_of("number", meaning, absolute, least=0, most=0.9), None
 

@@ -95,7 +95,7 @@ def number_or_range(model, meaning, **bounds):
 
 
 def count(meaning, *, least, most, why=""):
-    """Return the pydantic type of whole numbers from `least` to `most`; `why` explains the bounds."""
+    """Return the pydantic type of whole numbers from `least` to `most`, for the reason `why`."""
     words = ["a whole number", *_bounds({"at least": least, "at most": most})]
     kind = conint(strict=True, ge=least, le=most)
     return Annotated[kind, Allowed(", ".join(words), meaning, why)]

@@ -19,8 +19,8 @@ def measured_costs(p, y, begin, periods) -> dict:
     """Return a dictionary of the dimensionless costs of a motion over `periods` forcing cycles.
 
     `p`: packed parameters. `y`: state at the time `begin`. `impact_rate` and `impact_speed` include
-    only contacts that begin in these cycles. Accelerations are absolute. Rates, forces,
-    accelerations and powers are NaN after an escape, `absolute_displacement` if no base moves.
+    only contacts begun in these cycles. Accelerations are absolute. After an escape, rates, forces,
+    accelerations and powers are NaN. `absolute_displacement` is NaN unless the base moves.
     """
     time = periods * 2 * np.pi / p[FREQUENCY]
     panels = sampled(p, y, begin, begin + time, POLISH_TOLERANCE)

@@ -199,8 +199,8 @@ def score(task, gaps, frequencies, starts, stream, progress=None, sets=(NOMINAL,
 
     The first holds displacements (mm), the second frequencies (Hz), the third sets of factors. A
     cell is a gap, one of `frequencies` and one of `sets`. It has `starts` random starts (`stream`:
-    see `draw_starts`). About the fraction (1 - task.share)/2 of the motions of a cell
-    exceed its displacement. The worst cell has the largest displacement. If only rare motions reach this
+    see `draw_starts`). About the fraction (1 - task.share)/2 of the motions of a cell exceed its
+    displacement. The worst cell has the largest displacement. If only rare motions reach this
     displacement, the worst cell is run again (see DOUBTED).
     """
     conditions = [(f, tuple(each)) for f in frequencies for each in sets]

@@ -63,7 +63,7 @@ def times_after(task, p, state, changes, promised):
 
 
 def convergence_times(task, p, states, promised) -> np.ndarray:
-    """Return the number of cycles until each motion from `states` stays below `promised`, or inf."""
+    """Return the cycles until each motion from `states` stays below `promised`, or infinity."""
     rows = np.tile(p, (len(states), 1))
     peaks = peaks_of_blocks(task, rows, states.copy(), LONGEST // BLOCK, BLOCK)
     loud = peaks > promised
