@@ -118,8 +118,8 @@ def enqueue(queues, waiting, m, kind):
 def choose(pool, chosen):
     """Take up to LANES trajectories from the longest queue. Put their indices into `chosen`.
 
-    Return how many trajectories were taken, and the kind of step for which this queue is. If fewer
-    than LANES trajectories were taken, the last index is repeated until `chosen` is full.
+    Return how many trajectories were taken, and the kind of their next step. If fewer than LANES
+    trajectories were taken, the last index is repeated until `chosen` is full.
     """
     waiting = pool.waiting
     kind = FLIGHT

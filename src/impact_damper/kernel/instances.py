@@ -206,7 +206,7 @@ class Writer:
         """Return the code of a kernel that computes the Taylor series of a step.
 
         X is the series of Z1, and G is the series of Z1'' without the wall's force. In contact Q is
-        the series of the depth. If `across` is true, gravity, friction or a moving base act on Q.
+        the series of the depth. Q includes gravity, friction and a moving base if `across` is true.
         """
         lines = [
             f"cosine = {self.at('COSINE')}",

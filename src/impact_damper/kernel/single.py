@@ -31,8 +31,8 @@ PARAMETERS, STATE, KNOWN, X, Q = _ONE.FREQUENCY, _ONE.Y0, _ONE.KNOWN, _ONE.X, _O
 T, SWAY, SWAY_SLOPE, STUCK = _ONE.T, _ONE.SWAY, _ONE.SWAY_SLOPE, _ONE.STUCK
 DRAW, BASE_COSINE, BASE_SINE, E = _ONE.DRAW, _ONE.BASE_COSINE, _ONE.BASE_SINE, _ONE.E
 FLIGHT_ORDER, CONTACT_ORDER = _ONE.FLIGHT_ORDER, _ONE.CONTACT_ORDER
-# Indices in a workspace at which Taylor coefficients of the tangents begin: of Z1 (DX) and of the
-# depth in a wall (DQ). Each order has COLUMNS numbers, one for each tangent.
+# In a workspace the Taylor coefficients of each tangent's Z1 begin at the index DX. The
+# coefficients of the depth begin at DQ. Each order has COLUMNS numbers, one for each tangent.
 _ROWS = rows(FLIGHT_ORDER, CONTACT_ORDER)
 DX, DQ = (BEHIND + _ROWS[name] * COLUMNS for name in ("DX", "DQ"))
 
@@ -159,8 +159,8 @@ def step(p, y, side, t, longest, tolerance, work):
     """Integrate one step, at most up to the first event and at most over the time `longest`.
 
     The step begins at the time t in the state y (4,). The state at the end replaces y. Return the
-    step's length, and the side at its end. `work` is a `workspace()`. After the step it has the
-    Taylor coefficients of Z1 from index X on. After a step in contact it also has the coefficients
+    step's length, and the side at its end. `work` is a `workspace()`. After the step `work` has
+    the Taylor coefficients of Z1 from index X on, and after a step in contact the coefficients
     of the depth Z2 - `side` d0 from index Q on. If the motion has escaped (`equation.no_return`),
     the returned length is `longest`, and `work[LENGTH]` is the true length.
     """

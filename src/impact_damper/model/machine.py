@@ -359,7 +359,7 @@ def mounting(
     """Return a dictionary: `gravity` along the gap (m/s^2), `friction` (N) of the loose `mass`.
 
     `inclination` (radian, or text such as "90 deg") is the angle of the gap to the horizontal, by
-    default 0. Gravity along the gap follows from it, unless `gravity` is given in its place. The
+    default 0. Gravity along the gap follows from this angle, unless `gravity` is given. The
     friction is `friction_coefficient` times `normal_force` (N), with which the loose mass presses
     its floor. By default `normal_force` is the weight times the cosine of `inclination`. `friction`
     may be given in place of `friction_coefficient` and `normal_force`.

@@ -79,9 +79,9 @@ def find_contact(a):
       are more than `sag` away from this wall. Z2 as a function of time deviates by at most `sag`
       from the straight line between both values.
     - `left` is true if a lower bound on the distance to the opposite wall is positive. This bound
-      is a mean of two: one from `change` and the straight line, one from `change` and Z2' at 0.
+      is the mean of two: one from `change` and the straight line, one from `change` and Z2' at 0.
     - `certain` is true if a lower bound on the speed towards the wall ahead is positive. This bound
-      is a mean of two: one from `change` and Z2' at 0, one from `change` and Z2' at T.
+      is the mean of two: one from `change` and Z2' at 0, one from `change` and Z2' at T.
     """
     undecided = 0
     expected = 0

@@ -68,7 +68,7 @@ def let_go(a):
 
 
 def load_rates(a):
-    """If LANES is 1, write DAMPING/k into the rows H, and DASHPOT/k into the rows D (orders k)."""
+    """If LANES is 1, fill the rows H with DAMPING/k, and D with DASHPOT/k, for all orders k."""
     if LANES == 1:
         for k in range(max(FLIGHT_ORDER, CONTACT_ORDER) - 1):
             a[H + k] = a[DAMPING] * (1.0 / max(k, 1))

@@ -59,7 +59,7 @@ def is_last_move(a, i, move, rate):
     """Return whether the root's estimated error is small enough to end a search after a `move`.
 
     The estimate is |r move|^3, a number without a unit. `move` is a change of the time, and r is
-    the larger of 2/LENGTH and `rate`. With the event function f, in flight `rate` is |f''/f'|. In
+    the larger of 2/LENGTH and `rate`. f is the event function. In flight `rate` is |f''/f'|. In
     contact `rate` is the larger of |(f'' + n^2 f)/f'| and n, the contact's natural frequency.
     """
     turn = max(rate, 2.0 / a[LENGTH + i]) * move
@@ -111,7 +111,7 @@ def store_end(a, i, row, end, move, going):
 
 
 def store_search(a, i, mode, t, move):
-    """Store t and `mode`. If the search was not yet over, also store Z1 and Z1'.
+    """Store t and `mode`. Also store Z1 and Z1', unless the search was over before this call.
 
     Z1 and Z1' are extrapolated by the time `move`. Return 1 if the search goes on, else 0.
     """
