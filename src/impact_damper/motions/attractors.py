@@ -91,7 +91,7 @@ def orbit_states(p, record, phase):
 
 
 def _distinct(p, motions):
-    """Return one record of each orbit, by ascending max |Z1|. A mirror image is another orbit."""
+    """Return one record of each orbit, by ascending max |Z1|. Mirror images count as two."""
     kept, seen = [], []
     for record in motions[np.argsort(motions["maximum_displacement"], kind="stable")]:
         known = any(
@@ -161,7 +161,7 @@ def _radius(coefficients, step, contraction):
 def label_damped(p, states, phase, settling, known=(), workers=1, progress=None):
     """Run motions with the damper from states (n, 4); return labels, cycles run, and attractors.
 
-    `phase` is the forcing phase of the states. Attractors are records: first `known`, then new.
+    `phase` is the forcing phase of the states. The attractors are `known`, then new records.
     A label is the index of an attractor, or a flag in LABELS if the motion does not settle.
     """
     begin = phase % (2 * np.pi) / p[FREQUENCY]
@@ -204,7 +204,7 @@ class ReleaseSet(NamedTuple):
 
 
 def release_set(oscillator, frequency, settling, *, cells=64, workers=1) -> ReleaseSet:
-    """Compute the release set for each of PHASES phases, on a grid of `cells`^2 coarse cells."""
+    """Compute the release set at PHASES phases of the forcing, on `cells`^2 coarse grid cells."""
     p = pack(oscillator, None, frequency)
     known = free_motions(oscillator, frequency, settling)
     window = REACH / 2 * np.array([known.displacement, known.speed])

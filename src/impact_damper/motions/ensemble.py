@@ -122,7 +122,7 @@ def take(pool, m, i, parameters, states, start, tolerance, seen, out):
 
 @kernel_only
 def take_state(pool, m, i, p, states, begin, first, tolerance, y, taken, strobes):
-    """If states[i] exists, put its motion at index m of the pool. `first`: first strobe's time."""
+    """Put the motion from states[i], if any, at index m of the pool; `first`: first strobe time."""
     if i < len(states):
         taken[m], strobes[m] = i, 0
         y[0], y[1], y[2], y[3] = states[i, 0], states[i, 1], states[i, 0], states[i, 1]
@@ -187,7 +187,7 @@ def label_many(p, begin, tolerance, limit, neighbourhoods, states, labels, perio
 
 @kernel_only
 def which(x, v, owner, centre, shape):
-    """Return the index of the orbit with (x, v) in a neighbourhood (`Attractors`), or UNKNOWN."""
+    """Return the index of the orbit in whose neighbourhood the state (x, v) lies, or UNKNOWN."""
     for k in range(len(owner)):
         dx, dv = x - centre[k, 0], v - centre[k, 1]
         first = shape[k, 0, 0] * dx + shape[k, 0, 1] * dv

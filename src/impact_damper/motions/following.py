@@ -15,7 +15,7 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE, polish, repeats_s
 # Factor by which the step of the parameter grows after a successful step.
 GROWTH = 1.5
 # `follow_stable` uses Newton's method. It may move a predicted state by at most REACH, and the
-# given state of the orbit by at most NUDGE.
+# state given at the start by at most NUDGE.
 REACH, NUDGE = 0.03, 1e-3
 # Smallest step of the parameter. The end of a branch is found to this accuracy.
 RESOLUTION = 1e-8
@@ -64,7 +64,7 @@ def follow(
     fails, or if Z1, Z1' or Z2 changes by `reach` or more. A failure halves the step, a success
     multiplies it by `growth`. Following stops if a step is below `shortest`. If `extrapolating`,
     the predicted state lies on the line through the states of the last two orbits, otherwise it is
-    the last orbit's state. `behind`, an orbit at 2 start - target, gives the first step a line.
+    the last orbit's state. At the first step `behind` is the orbit before, at 2 start - target.
     """
     value, step, status = start, target - start, ""
     before, last_step = (start, orbit), target - start

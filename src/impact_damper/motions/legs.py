@@ -1,6 +1,6 @@
 """Legs: parts of a run of migration control in which the damper stays on, or stays off.
 
-Z1 and Z1' are continuous: a leg takes them from the end of the leg before, not from an orbit.
+Each leg begins with the Z1 and Z1' at which the leg before has ended.
 """
 
 import math
@@ -109,9 +109,9 @@ def hold_by_state(off, on, y, wait, place, strobe, tolerance, longest, releases)
     """Switch the damper on, and switch it off when the state is in the release set `releases`.
 
     The run begins in the state y at a strobe, at the time `strobe` in forcing cycles. After `wait`
-    cycles the damper is switched on, and Z2 is set to `place` times the clearance. The damper then
-    stays on for at most `longest` cycles. The last state replaces y. Return the path with the
-    damper on, in rows as in `run`.
+    cycles the damper is switched on: packed parameters `on` replace `off`, and Z2 is set to `place`
+    times the clearance. The damper then stays on for at most `longest` cycles. The last state
+    replaces y. Return the path with the damper on, in rows as in `run`.
     """
     begin = wait_and_switch(off, on, y, wait, place, tolerance)
     path = np.full((longest + 2, 5), np.nan)

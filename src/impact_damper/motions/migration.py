@@ -71,7 +71,7 @@ def migrate(
     seed : int or numpy.random.SeedSequence
         Seed of the random phases of switching and of the random places of the loose mass.
     longest_hold : int
-        Forcing cycles from each switching on, after which the damper is switched off in any case.
+        After this number of forcing cycles with the damper on, it is switched off in any case.
     periods : int
         After this number of forcing cycles in a run the damper is not switched on again.
     switchings : int
@@ -140,9 +140,9 @@ def _free_motion(oscillator, frequency, start, which, settling):
 
 
 def release_case(oscillator, damper, frequency, settling) -> ReleaseCase:
-    """Return the `ReleaseCase` of a damper; raise ValueError if a free motion does not exist.
+    """Return the `ReleaseCase` of a damper; raise ValueError unless both free motions exist.
 
-    Each motion is followed towards the fold at which its own branch ends. With a hardening spring
+    Each free motion is followed towards the fold that ends its branch. With a hardening spring
     the resonance motion is followed upward from a lower frequency, and the non-resonance motion
     downward from a higher frequency. With a softening spring upward and downward are exchanged.
     """

@@ -131,7 +131,7 @@ def peaks(values):
 
 
 def largest(values) -> float:
-    """Return the largest modulus of a function in all panels; 0 if there are no panels."""
+    """Return a function's largest modulus, from its `values` at nodes; 0 if there are no panels."""
     return float(np.max(peaks(values), initial=0.0))
 
 

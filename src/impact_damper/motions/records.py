@@ -212,7 +212,7 @@ def phase_of(harmonic, reference):
 
 
 def tabulate(records):
-    """Return the dataset variables of records, as a dict. The array may have any shape."""
+    """Return the dataset variables of records, as a dict. `records` may have any shape."""
     first, second = records["harmonic_displacement"], records["harmonic_relative"]
     others = ("multiplier", "state", "reach", "harmonic_displacement", "harmonic_relative")
     return {name: records[name] for name in MOTION.names if name not in others} | {

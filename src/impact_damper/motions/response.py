@@ -61,9 +61,9 @@ def frequency_response(
         Random starts (initial states) at each frequency.
     radius : float, optional
         Random starts are uniform in a ball with this radius around rest, and the loose mass is in
-        its gap. Without a radius, Z1 and Z1' of random starts reach up to three times their
-        largest values in motions without the damper. Further starts are then not random: for
-        example states on motions without the damper.
+        its gap. Without a radius, displacements and speeds of the primary mass in random starts
+        reach up to three times their largest values without the damper. There are then also starts
+        that are not random, for example states on motions without the damper.
     whole_gap : bool
         Used with a radius. If False, all four components of a start lie in the ball, as in the
         paper. If True, only Z1 and Z1' lie in the ball; the loose mass is at relative rest anywhere
@@ -95,7 +95,7 @@ def frequency_response(
     Warns
     -----
     UserWarning
-        If a motion without the damper exceeds the radius, unless `whole_gap` is True.
+        If |Z1| or the speed without the damper exceeds the radius, unless `whole_gap` is True.
 
     Examples
     --------
@@ -174,7 +174,7 @@ def _lives(parameters, states, periods, settling, **running):
         decay = -np.log(np.abs(records["multiplier"])) / records["period"]
         approach = np.nan_to_num(np.log(CAPTURE / NEAR) / decay)
     lives = np.maximum(lives - approach, 1)
-    # If a transient ends within CHECKED further cycles, its life is `periods`, else periods + 1.
+    # A transient that also lasts CHECKED further cycles has the life periods + 1, others `periods`.
     still = np.isin(again["outcome"], (CHAOTIC, UNRESOLVED))
     lives[lasting] = np.where(still, periods + 1, periods)
     return lives

@@ -30,7 +30,7 @@ from impact_damper.theory.single_harmonic import impacting_solutions
 # Search for free motions. PHASES: number of starts on a solution of harmonic balance. SAMPLES:
 # samples in a forcing cycle. MOST_STATES: largest number of states that are stored for one motion.
 PHASES, SAMPLES, MOST_STATES = 6, 256, 5
-# Random starts. SPREAD: largest |Z1| and |Z1'| of starts, divided by those of the free motions.
+# Random starts. |Z1| and |Z1'| of starts reach SPREAD times the largest values of free motions.
 # SMALLEST: smallest distance of a start from rest, divided by the largest distance.
 SPREAD, SMALLEST = 3.0, 0.01
 # Placed starts. PLACES: Z2 divided by the clearance. VELOCITIES: Z2' divided by a speed. The speed
@@ -68,7 +68,7 @@ class Search(NamedTuple):
     free_speed: np.ndarray
 
     def variables(self, dimension=None) -> dict:
-        """Return missed share and sizes of starts and free motions; scalars without `dimension`."""
+        """Return the missed share and the last four fields, over `dimension` or as scalars."""
         names = "start_displacement", "start_speed", "free_displacement", "free_speed"
         data = {
             name: ((), values[0]) if dimension is None else (dimension, values)
@@ -230,7 +230,7 @@ def _ramp(target, indices, factor, tolerance):
 
 
 def barrier(oscillator):
-    """Return |Z1| at the barrier of a softening spring, and |Z1'| at Z1 = 0 needed to reach it."""
+    """Return |Z1| at a softening spring's barrier, and the speed at Z1 = 0 that just reaches it."""
     stiffness, softening = oscillator.linear_frequency**2, -oscillator.cubic
     return math.sqrt(stiffness / softening), stiffness / math.sqrt(2 * softening)
 

@@ -24,7 +24,7 @@ from impact_damper.motions.watch import RING, SEEN, begin_watch, watch
 # Number of motions in a chunk. A call of a kernel runs one or more chunks.
 CHUNK = 128
 # MOST_CHUNKS: largest number of chunks in one call of a kernel. Ctrl-C waits until the call ends.
-# SLICES: smallest number of calls for each of several threads, if there are enough motions.
+# SLICES: if there are enough motions, each of several threads gets at least SLICES calls.
 MOST_CHUNKS, SLICES = 8, 3
 
 
@@ -51,7 +51,7 @@ def steady_motion(
         the motion becomes its mirror image in half a period), phase of Z1 minus phase of Z2, phase
         of Z1 minus phase of the loose mass (phases of first harmonics), dominant multiplier,
         Lyapunov exponent, frequencies of a quasi-periodic motion. `state` is the state at
-        W T = pi/2 (a coordinate). To continue the motion, pass it to `simulate` or this function.
+        W T = pi/2 (a coordinate). To continue, pass `state` to `simulate` or this function.
 
     Examples
     --------

@@ -51,7 +51,7 @@ def speed_weight(p, side):
 
 @kernel
 def distance(a, b, weight):
-    """Return the largest component of |a - b|. The component in Z2' is multiplied by `weight`."""
+    """Return the largest component of |a - b| for states a, b; Z2' is multiplied by `weight`."""
     d = max(abs(a[0] - b[0]), abs(a[1] - b[1]))
     return max(d, max(abs(a[2] - b[2]), weight * abs(a[3] - b[3])))
 
@@ -78,7 +78,7 @@ def flow(p, state, tangents, begin, periods, half, tolerance):
 
 @inlined
 def period_map(p, y, periods, tolerance):
-    """Return the state z after `periods` cycles from y, then dz/dy, and the number of contacts."""
+    """Run `periods` cycles from a state y to a state z. Return z, dz/dy, number of contacts."""
     half = np.bool_(False)  # for the literal False numba would compile `flow` again
     state, tangents, matrix = y.copy(), np.empty((4, 4)), np.empty((4, 4))
     for i in range(16):

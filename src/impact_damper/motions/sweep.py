@@ -29,8 +29,8 @@ SAME, ROUNDING, SIMILAR = 1e-6, 1e-11, 1.5
 # Outcomes with infinite or zero max |Z1|. All motions with one such outcome count as one motion.
 ALIKE = tuple(flag("outcome", name) for name in ("diverged", "escaped", "at_rest"))
 # Search for orbits by Newton's method. LONGEST: longest period in cycles. REACH: largest distance
-# of an orbit from its first guess, divided by the clearance or, if larger, by the largest |Z1| or
-# |Z1'| of known motions. SAME_ORBIT: two orbits are equal if their states differ by less.
+# of an orbit from its first guess, divided by the clearance or by a known motion's |Z1| or |Z1'|,
+# whichever is greatest. SAME_ORBIT: two orbits are equal if their states differ by less than this.
 LONGEST, REACH, SAME_ORBIT = 5, 1.0, 1e-6
 # Events at the end of a branch. At a bifurcation the modulus of the orbit's multiplier is above
 # CRITICAL. A multiplier is complex if its imaginary part is above COMPLEX. At a loss of symmetry
@@ -43,8 +43,8 @@ def sweep(parameters, index, dimension, search, settling, *, workers=1, progress
 
     The rows of packed `parameters` differ in the column `index`, which holds the parameter named
     `dimension`. `search` holds start states for each row. Variables that describe motions lie over
-    (`dimension`, motion), and those that describe runs from random starts over (`dimension`,
-    start). Variables that describe ends of branches lie over (end).
+    (`dimension`, motion). Variables that describe runs from random starts lie over
+    (`dimension`, start). Variables that describe ends of branches lie over (end).
     """
     size, starts = search.random.shape[:2]
     rows, states = np.repeat(parameters, starts, axis=0), search.random.reshape(-1, 4)
@@ -207,7 +207,7 @@ class Catalogue:
     def add(self, record, origin):
         """Add the motion of a record, unless the motion is known; return the motion's index.
 
-        `origin` says how it was found. The record with the largest max |Z1| of a motion is kept.
+        `origin` says how the motion was found. The record with the larger max |Z1| is kept.
         """
         i = self.find(record)
         if i is None:
@@ -283,7 +283,7 @@ def stable_orbits(p, motions, loose, tolerance, stop) -> np.ndarray:
 
     On most orbits the primary mass moves nearly as in a known motion. So a start of Newton's method
     takes Z1, Z1' from a known motion, a row of `motions` (m, 2). It takes Z2 and the loose
-    mass's velocity, Z1' - Z2', from a row of `loose` (n, 2). Each row of `loose` is used once.
+    mass's velocity, Z1' - Z2', from a row of `loose` (n, 2). Each row of `loose` gives one start.
     """
     found, none = [], np.empty((0, 4))
     if len(motions) == 0 or len(loose) == 0:

@@ -3,9 +3,9 @@
 A quasi-periodic motion is recognised by its strobe states: they lie on n closed curves, n = 1, 2,
 ..., and every n-th state lies on the same curve. From each state on a curve to the next, the angle
 around the curve's centre advances. The rotation number is the mean of these advances, in
-revolutions. This module takes a mean with weights, which fall smoothly to 0 at the first and the
-last state. Over m states this mean converges faster than any power of 1/m (S. Das, Y. Saiki,
-E. Sander and J. A. Yorke, Nonlinearity 30, 4111-4140, 2017), in a chaotic motion only as m^(-1/2).
+revolutions. Here the weights of the mean fall smoothly to 0 at the first and the last state. Then
+the mean over m states converges faster than any power of 1/m (S. Das, Y. Saiki, E. Sander and
+J. A. Yorke, Nonlinearity 30, 4111-4140, 2017). In a chaotic motion it converges as m^(-1/2) only.
 """
 
 import math
@@ -30,7 +30,7 @@ GROWN = 40.0
 # A Lyapunov exponent counts as 0 if its modulus is at most NEUTRAL standard errors.
 NEUTRAL = 3.0
 # LONGEST: longest period of an orbit that Newton's method looks for, in forcing cycles.
-# REACH: bound on the change of a state by Newton's method.
+# REACH: Newton's method fails if it changes Z1, Z1' or Z2 by this much or more.
 LONGEST, REACH = 256, 1e-2
 # A state lies on a known closed curve if it is nearer than this to a known point of the curve.
 NEIGHBOUR = 1e-3

@@ -29,7 +29,7 @@ from impact_damper.motions.strobe_map import (
 LONGEST_PERIOD = 12
 RING = 2 * LONGEST_PERIOD + 1
 # A motion is chaotic if its Lyapunov exponent exceeds CONFIDENCE standard errors. An exponent below
-# WEAK, in units of 1/T, is judged only at the end of a run.
+# WEAK (per unit of the time T) is judged only at the end of a run.
 CONFIDENCE, WEAK = 4.0, 0.05
 # The growth of a tangent is measured in batches of BLOCK forcing cycles. A motion is chaotic only
 # if the mean over the last RECENT batches exceeds half of the mean over all batches.
@@ -37,8 +37,8 @@ BLOCK, RECENT = 10, 5
 # Newton's method is tried when a motion is nearer to an orbit than the distance NEAR. After each
 # failure the distance is divided by 10, down to NEAREST.
 NEAR, NEAREST = 1e-4, 1e-9
-# EARLY: distances from an orbit, above NEAR, at which Newton's method is also tried. The state must
-# then move less and less in the last RETURNS periods. NONLINEAR, APPROACH: see `is_linear`.
+# EARLY: distances from an orbit, above NEAR, at which Newton's method is also tried, if the last
+# RETURNS distances between states a period apart decrease. NONLINEAR, APPROACH: see `is_linear`.
 EARLY, RETURNS, NONLINEAR, APPROACH = (1e-2, 1e-3), 4, 0.1, 1000
 # Without forcing, a motion is at rest if its energy is at most REST times the energy at the start.
 REST = 1e-9
@@ -59,7 +59,7 @@ SEEN = np.dtype(
 
 @kernel_only
 def normalise(tangent):
-    """Scale a tangent to the length 1; return the logarithm of its length before."""
+    """Scale a tangent to the length 1; return the logarithm of its former length."""
     size = 0.0
     for i in range(4):
         size += tangent[i] ** 2
@@ -147,7 +147,7 @@ def move_onto_orbit(p, y, periods, near, out):
 
 @kernel_only
 def approaches(ring, k, n, weight):
-    """Return whether the last RETURNS distances of states in `ring`, n cycles apart, decrease."""
+    """Return whether the last RETURNS distances between states n cycles apart decrease in time."""
     before = 0.0
     for j in range(RETURNS):
         if k < (j + 1) * n or (j + 1) * n >= RING:

@@ -54,7 +54,7 @@ def free_solutions(oscillator, frequency) -> FreeSolutions:
 
 
 def main_solutions(oscillator, frequency) -> FreeSolutions:
-    """Return the free solutions; with a softening spring only those up to the peak amplitude."""
+    """Return the free solutions, with a softening spring only up to the peak amplitude."""
     free = free_solutions(oscillator, frequency)
     if oscillator.hardening >= 0:
         return free
@@ -63,7 +63,7 @@ def main_solutions(oscillator, frequency) -> FreeSolutions:
 
 
 def balance_amplitudes(oscillator, frequency):
-    """Return the amplitudes of `main_solutions`, or without a peak only the smallest amplitude."""
+    """Return the amplitudes of `main_solutions`. If there is no peak, return only the smallest."""
     try:
         return main_solutions(oscillator, frequency).amplitude
     except ValueError:

@@ -28,7 +28,7 @@ class Solutions(NamedTuple):
 
 
 def contact_amplitude(relative_amplitude, clearance) -> tuple:
-    """Return B and dB/db for the amplitude b of Z2. r1 B is the contact force's harmonic (6e).
+    """Return B and dB/db for the amplitude b of Z2. r1 B is the harmonic of the contact force (6e).
 
     B = b (2/pi)(p - sin p cos p) with the contact angle p = arccos(d0/b). B is 0 for b <= d0.
     """
@@ -83,7 +83,7 @@ def impacting_solutions(oscillator, damper, frequency) -> Solutions:
 
 
 def resting_solutions(oscillator, damper, frequency) -> Solutions:
-    """Return the free solutions with a < d0, with the loose mass at rest in space, so Z2 = Z1."""
+    """Return free solutions with an amplitude below d0: the loose mass rests in space, Z2 = Z1."""
     check_closed_form(oscillator, damper)
     free = free_solutions(oscillator, frequency)
     inside = free.amplitude < damper.clearance
@@ -103,7 +103,7 @@ class _Balance:
         self.stiffness = 2 * damper.contact_stiffness / (np.pi * self.inertia)
 
     def terms(self, angle):
-        """Return cos p, a cos p, f cos(t1) cos^3 p and -f sin(t1) cos^3 p, where p is `angle`."""
+        """Return cos p, a cos p, f cos(t1) cos^3 p, -f sin(t1) cos^3 p (p: contact angle)."""
         cosine = np.cos(angle)
         scaled = self.scaled_amplitude(angle)
         force = self.inertia * (self.clearance - scaled)
@@ -112,11 +112,11 @@ class _Balance:
         return cosine, scaled, inline, self.drag * scaled * cosine**2
 
     def scaled_amplitude(self, angle):
-        """Return a cos(p) by (7c), where p is the contact angle `angle`."""
+        """Return a cos(p) by (7c): a is the amplitude of Z1, and p the contact angle `angle`."""
         return self.clearance * (1 - self.stiffness * _excess(angle))
 
     def defect(self, angle):
-        """Return cos^6(p) G(p) for p = `angle`. `impacting_solutions` explains p and G."""
+        """Return cos^6(p) G(p) at the contact angle p. `impacting_solutions` defines G."""
         cosine, _, inline, quadrature = self.terms(angle)
         return inline**2 + quadrature**2 - self.force**2 * cosine**6
 

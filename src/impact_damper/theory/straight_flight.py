@@ -13,7 +13,7 @@ from impact_damper.model.bounds import check_number
 from impact_damper.model.exit_rules import damping_ratio
 from impact_damper.model.parameters import check_closed_form
 
-# The search for the smallest max |x| tries this number of impulses, then refines the best.
+# The search for the smallest max |Z1| tries this number of impulses, then refines the best.
 GRID = 65
 NEWTON_STEPS = 3
 # Shift of two equal roots in `Flight._difference`, to avoid a division by 0.
@@ -47,7 +47,7 @@ class Flight(NamedTuple):
 
     @property
     def loss(self):
-        """Ratio sin(s)/q of an impact's phase s and impulse q at rigid walls; 0 without losses."""
+        """Quotient sin(s)/q of an impact at rigid walls: s is its phase, q its impulse."""
         impact = (1 + 1 / self.mass_ratio) * (1 - self.restitution) / (1 + self.restitution)
         damping = self._difference(lambda root: root * np.tanh(np.pi * root / 2))
         return 2 / np.pi * (impact - damping) / self.forced
@@ -59,9 +59,9 @@ class Flight(NamedTuple):
 
     @property
     def reach(self):
-        """Number c: the time in contact reduces the clearance d0 by c (1 + rm) q f/(rm W^2).
+        """Number c: as a contact takes time, the clearance rm W^2 d0/f is lower by (1 + rm) c q.
 
-        f is the forcing amplitude, q the `impulse`. At rigid walls c is 0.
+        f is the forcing amplitude, q the `impulse`. Contacts with rigid walls take no time: c = 0.
         """
         return 4 / np.pi * self.contact_phase * self.restitution / (1 + self.restitution) ** 2
 
@@ -82,13 +82,13 @@ class Flight(NamedTuple):
         return np.arcsin(np.minimum(self.loss * impulse, 1.0)) - self.setback
 
     def _difference(self, function):
-        # The roots z of z^2 + damping z + stiffness^2 = 0. They differ by 2 half.
+        # Roots z of z^2 + damping z + stiffness^2 = 0. `half` is half of the roots' difference.
         half = np.sqrt(complex(self.damping**2 / 4 - self.stiffness**2)) or APART
         roots = -self.damping / 2 + half, -self.damping / 2 - half
         return ((function(roots[0]) - function(roots[1])) / (2 * half)).real
 
     def motion(self, phase, impulse):
-        """Return x = W^2 Z1/f and its first two derivatives by phi, at phi = `phase`."""
+        """Return x = W^2 Z1/f (f: forcing amplitude), dx/dphi, d2x/dphi2 at phi = `phase`."""
         y = np.pi / 2 - (phase - self.lag(impulse))
         pushed = [
             -2
@@ -108,7 +108,7 @@ class Flight(NamedTuple):
         return impulse + self.mass_ratio * tip - (1 + self.mass_ratio) * self.reach * impulse
 
     def largest_displacement(self, impulse):
-        """Return the largest |Z1| W^2/f, at an impact or at a turning point between impacts."""
+        """Return the largest |Z1| W^2/f (f: forcing amplitude), at an impact or a turning point."""
         lag = self.lag(impulse)
         turn = np.arcsin(np.minimum(2 * impulse / (np.pi * self.forced), 1.0))
         sizes = [self.motion(lag, impulse)[0] - (1 - 2 / np.pi) * self.reach * impulse]
