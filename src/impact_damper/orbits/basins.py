@@ -2,8 +2,8 @@
 
 Without a damper the boundaries of basins are curves of states: the stable manifolds of unstable
 orbits. From a state on the stable manifold of an orbit the motion tends to this orbit. The curves
-are computed backwards in time, because errors then decrease. `window` is a pair of bounds on the
-moduli of Z1 and Z1' in states that are stored, `reach` a pair for states that are computed.
+are computed backwards in time, because errors then decrease. `window` and `reach` are pairs of
+bounds on the moduli of Z1 and Z1'. A curve is stored within `window` and followed within `reach`.
 The names *convergence time*, *finite-time basin stability* and *minimal critical shock* come from
 Attractors.jl, version 2 (StabilityQuantifiersAccumulator).
 """
@@ -295,8 +295,8 @@ NEAR = 1e-5
 # cut short when more than MOST_POINTS states are stored, or more than MOST_IN_ALL are computed.
 MOST_PERIODS, MOST_POINTS, MOST_IN_ALL, MOST_HALVINGS = 60, 40_000, 100_000, 12
 FIRST_POINTS = 33
-# Neighbouring states of a manifold differ in Z1 and Z1' by at most one cell of the plane. States
-# that are not stored may differ by OUTSIDE x the largest |Z1| and |Z1'| that are computed.
+# Neighbouring states of a manifold differ in Z1 and Z1' by at most one cell. Outside the plane they
+# may differ by OUTSIDE x `reach`, the largest |Z1| and |Z1'| to which the manifold is followed.
 OUTSIDE = 0.01
 # Two orbits are the same if their states differ by less than SAME.
 SAME = 1e-6

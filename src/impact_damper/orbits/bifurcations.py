@@ -108,7 +108,7 @@ def bifurcations_between(point_at, start, end, first, last):
 
 
 def events_between(start, end, length):
-    """Return the events on the step from `start` to `end`, and how many were not located."""
+    """Return the events on a step of `length`, and the number of events that were not located."""
     known = {0.0: start, length: end}
 
     def point_at(distance):

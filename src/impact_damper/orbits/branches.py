@@ -15,8 +15,8 @@ from impact_damper.orbits.segments import NUDGE
 MOST_POINTS = 10_000
 # Two orbits are the same if their states at W T = pi/2 differ by less than SAME.
 SAME = 1e-5
-# `Branch.holds` searches for an orbit only on some steps. At the first point of such a step,
-# max |Z1| differs from max |Z1| of the orbit by at most NEARBY + the change along the step.
+# `Branch.holds` searches for an orbit on a step only if max |Z1| at the first point of the step
+# differs from max |Z1| of the orbit by at most NEARBY + the change of max |Z1| along the step.
 NEARBY = 0.02
 # `Branch.family` is extrapolated to parameters at most this far outside the range of the branch.
 EXTENDED = 1e-3
@@ -55,12 +55,12 @@ class Branch:
 
     @cached_property
     def values(self):
-        """Values of the parameter at the points, shape (n,)."""
+        """Value of the parameter at each of the points."""
         return np.array([point.value for point in self.points])
 
     @cached_property
     def displacements(self):
-        """Largest |Z1| at the points, shape (n,)."""
+        """Largest |Z1| at each of the points."""
         return np.array([point.orbit.record["maximum_displacement"] for point in self.points])
 
     def holds(self, orbit, value) -> bool:
@@ -202,7 +202,7 @@ def _next_pieces(point, span, length, search):
         return [], 0.5, search
     along = (point.problem.metric * (ahead.x - point.x)) @ point.tangent
     located, missed = events_between(point, ahead, along)
-    # If the deviation changes sign on the step, the branch has met a more symmetric one at a fold.
+    # If `Orbit.deviation` reverses on the step, the branch met a more symmetric branch at a fold.
     crosses = point.orbit.deviation @ ahead.orbit.deviation < 0
     unseen = crosses and not any(event.kind == "fold" for event in located)
     if length > CLEAR_STEP and (missed or unseen):
@@ -263,7 +263,7 @@ def _meeting(events, orbit):
     for k in folds:
         if np.max(np.abs(events[k].point.orbit.deviation)) < least:
             return k
-    # If `events` has no fold, the fold at which the branches meet was not located.
+    # If `events` has no fold, the branch meets another branch at a fold that was not located.
     return None if folds else len(events)
 
 

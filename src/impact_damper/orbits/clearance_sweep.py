@@ -69,10 +69,11 @@ def clearance_sweep(
         and the amplitude of the smallest stable solution of (7). Scalars: the clearance of the
         smallest quiet orbit (the optimum); the kind of this minimum, which is smooth, a kink, an
         end of the branch, or an end of the sweep; the optimum by (7); the clearances by rules (18)
-        and (19), NaN for (19) without a resonance peak; rm W^2 d0/f, with f = F + U W^2, at the
-        optimum; the ratio rm W^2 d0/f at which max |Z1| is smallest by the theory of straight
-        flight. For each `edge`, lower and upper: the end of the range of clearances in which max
-        |Z1| of the quiet orbit exceeds its minimum by at most 10 %.
+        and (19), NaN for (19) without a resonance peak; rm W^2 d0/f at the optimum, with the mass
+        ratio rm and the amplitude f = F + U W^2 of the force; the value of rm W^2 d0/f at which max
+        |Z1| is smallest by the theory of straight flight. For each `edge`, lower and upper: the end
+        of the range of clearances in which max |Z1| of the quiet orbit exceeds its minimum by at
+        most 10 %.
 
     Raises
     ------
@@ -168,10 +169,10 @@ def _quiet_motions(data, clearances, rule):
 
 
 def _stable_part(p, state, span):
-    """Return clearances and max |Z1| of stable orbits on the branch of the orbit near `state`.
+    """Follow a branch over the clearances in `span` as long as its orbits are stable.
 
-    `p` holds the parameters of this orbit. Also return a function that computes max |Z1| for a
-    clearance between the clearances returned.
+    The branch contains the orbit near `state` with the parameters `p`. Return clearances, max |Z1|
+    at these clearances, and a function that computes max |Z1| for a clearance between them.
     """
 
     def family(clearance):
@@ -196,9 +197,8 @@ def _stable_part(p, state, span):
 
 # The range of clearances near the optimum ends where max |Z1| is NEAR_MINIMUM times its minimum.
 NEAR_MINIMUM = 1.1
-# A smooth minimum of max |Z1| is moved to the clearance at which a central difference of max |Z1|
-# is zero. The step of this difference is DIFFERENCE x clearance. The clearance changes by at most
-# WIDE x clearance.
+# A smooth minimum is refined: it is placed where a central difference of max |Z1| is zero.
+# The step of the difference is DIFFERENCE x clearance, the largest correction WIDE x clearance.
 DIFFERENCE, WIDE = 3e-5, 1e-4
 
 
@@ -249,7 +249,7 @@ def _stationary(size_at, best):
 
 
 def _kind(size_at, best, least, longest):
-    # Half as far from `best`, max |Z1| rises 1/4 as much (smooth minimum) or 1/2 as much (kink).
+    # Halving the distance from `best` divides the rise of max |Z1| by 4 (smooth) or by 2 (kink).
     steps = longest, longest / 2
     rises = [size_at(best + step) + size_at(best - step) - 2 * least for step in steps]
     return "kink" if rises[1] > 0.36 * rises[0] else "smooth"

@@ -27,7 +27,7 @@ NEWTON, LARGEST = 10, 0.5
 # The method fails if a correction exceeds both SURE and SHRINKING times the correction before it.
 CLOSE, ROUNDING, SURE, SHRINKING = 1e-10, 1e-4, 1e-6, 0.7
 # The derivative of `Orbit.defects` by the parameter is expensive. It is updated only if Newton's
-# last correction is below REFINED and the corrections since the last update exceed UNMOVED in sum.
+# last correction is below REFINED and corrections since the last update add up to over UNMOVED.
 REFINED, UNMOVED = 1e-4, 5e-6
 # A linear system is nearly singular if its solution is more than SINGULAR^-0.5 times as large as
 # its right side. Then singular values below SINGULAR times the largest one count as zero.
@@ -74,8 +74,8 @@ class Problem:
     loose: The constant (Z2 - Z1, Z2' - Z1'), from which Z2 and Z2' follow if there is no damper.
     damped: Whether there is a damper.
     symmetric: Whether all orbits are symmetric. The segments then cover half the period.
-    rough: 0, or the largest of the norms of the matrices in `Orbit.factors` just after `recut` made
-    several segments. `holds_still` compares later norms with it.
+    rough: The largest norm of a matrix in `Orbit.factors` just after `recut` has made several
+    segments, otherwise 0. `holds_still` compares later norms with it.
     """
 
     family: Callable[[float], np.ndarray]
@@ -132,13 +132,13 @@ class Problem:
         return np.append([orbit.at(phase)[: self.size] for phase in self.phases[:-1]], value)
 
     def states(self, x):
-        """Return the states at which the segments begin, shape (m, 4), from the unknowns x."""
+        """Return the states at which the segments begin, a row for each, from the unknowns x."""
         if self.damped:
             return x[:-1].reshape(-1, 4)
         return np.concatenate([x[:2], x[:2] + self.loose])[None]
 
     def shoot(self, x):
-        """Integrate all segments from the states in x to an `Orbit`, which need not be periodic."""
+        """Integrate segments from the states in x. The `Orbit` returned need not be periodic."""
         states = self.states(x)
         return integrate(self.family(x[-1]), self.periods, self.phases, states, self.sign)
 
@@ -205,7 +205,7 @@ class Problem:
         return np.linalg.lstsq(matrix, right, SINGULAR)[0]
 
     def near(self, x, border, length):
-        """Correct the guess x after a step of `length`. Return the point, or None if far from x."""
+        """Return the corrected guess x, or None if it moved by more than about ASIDE x `length`."""
         aside = ASIDE * abs(length) + min(ROUNDING, abs(length))
         point = self.correct(x, border, FAILING * aside)
         return None if point is None or self.length(point.x - x) > aside else point
@@ -235,7 +235,7 @@ def point_at_distance(origin, point, ahead, distance):
 
 
 def point_at_value(point, ahead, value):
-    """Return the point at parameter `value` between two points. None if Newton's method fails."""
+    """Return the point at parameter `value` between `point` and `ahead`, or None if not found."""
     problem, chord = point.problem, ahead.x - point.x
 
     def beyond(fraction):
@@ -265,7 +265,7 @@ def _cubic(point, ahead, fraction):
     return point.x + fraction * length * point.tangent + bent
 
 
-# A step above one of these bounds may lead to another branch and is rejected.
+# A step is rejected if it exceeds one of these bounds, because it may lead to another branch.
 # TURNED: angle between the tangents at the two ends of the step, radian.
 # SKEW: length of the difference of two unit vectors. One has the direction from the first to the
 # last point of the step, the other the direction of the mean of the two tangents.
@@ -302,7 +302,7 @@ def next_point(point, span, length):
 
 
 def with_bend(point, ahead):
-    """Return `ahead` with `bend` and `twist`, estimated from the step from `point` to `ahead`."""
+    """Return `ahead` with estimates of its derivatives `bend` and `twist` (see `Point`)."""
     length = ahead.problem.length(ahead.x - point.x)
     chord = (ahead.x - point.x) / length
     bend = (2 * point.tangent + 4 * ahead.tangent - 6 * chord) / length
@@ -315,7 +315,7 @@ def folds_twice(point, ahead):
     length = point.problem.length(ahead.x - point.x)
     first, last = length * point.tangent[-1], length * ahead.tangent[-1]
     chord = ahead.value - point.value
-    # For 0 < u < 1 on the step, d(parameter)/du is first + middle u + bend u^2.
+    # With u from 0 to 1 on the step, d(parameter)/du is first + middle u + bend u^2.
     bend, middle = 3 * (first + last) - 6 * chord, 6 * chord - 4 * first - 2 * last
     if first * last <= 0 or not 0 < -middle * bend < 2 * bend**2:
         return False
@@ -324,7 +324,7 @@ def folds_twice(point, ahead):
 
 # An orbit with several segments is divided anew if one of these is true:
 # - A segment begins closer than NEAR_SECTION (radian) to a contact.
-# - The norm of a matrix in `Orbit.factors` reaches ROUGHER times `Problem.rough`.
+# - The largest norm in `Orbit.factors` has grown by the factor ROUGHER since the last division.
 # - One segment is enough, because `Orbit.amplification` is below MILD x `shooting.AMPLIFYING`.
 NEAR_SECTION, ROUGHER, MILD = 0.02, 4.0, 0.5
 

@@ -76,7 +76,7 @@ class Passage(NamedTuple):
     kind: str
 
     def between(self, k):
-        """Return a function that finds the point of a given height between points k and k + 1."""
+        """Return a function of the height that finds points between points[k] and points[k + 1]."""
         known = [(self.heights[end], self.points[end], self.turns[end]) for end in (k, k + 1)]
         direction = np.sign(self.heights[k + 1] - self.heights[k])
 
@@ -96,7 +96,7 @@ class Passage(NamedTuple):
 
 
 def guess(point, turn, height):
-    """Return the unknowns of `point`, moved along its tangent until `turn` has about `height`."""
+    """Return unknowns on the tangent of `point` at which the extremum `turn` has about `height`."""
     return point.x + (height - turn.height) / (turn.gradient @ point.tangent) * point.tangent
 
 

@@ -142,8 +142,8 @@ class Orbit:
     def liouville_error(self):
         """Relative error of the determinant of the monodromy matrix.
 
-        By Liouville's theorem the determinant is exp(-h t - c (1 + 1/rm) t_c), with the period t,
-        the time in contact t_c and the coefficient c of the walls' dashpot.
+        Liouville's theorem gives the value exp(-h t - c (1 + 1/rm) t_c). Here t is the period,
+        t_c the time in contact, h the damping, rm the mass ratio, c the walls' dashpot coefficient.
         """
         p = self.p
         rate = p[DAMPING] * self.cycle / p[FREQUENCY]
@@ -197,7 +197,7 @@ class Orbit:
         return np.min(after / before, initial=np.inf) if self.touching else np.nan
 
     def at(self, phase):
-        """Return the state at a phase W T, radian, equal to or greater than the first phase."""
+        """Return the state at the phase W T = `phase`, which must not be below the first phase."""
         # With several segments, a multiple of `cycle` is subtracted to get a phase in one of them.
         turns = int((phase - self.phases[0]) // self.cycle) if len(self.states) > 1 else 0
         local = phase - turns * self.cycle
@@ -239,7 +239,7 @@ class Orbit:
         return record
 
     def is_same(self, other, tolerance=1e-6):
-        """Return whether `other` is this orbit or its mirror image. First phases may differ."""
+        """Return whether `other` is this orbit or its mirror image. First phases do not matter."""
         if other.periods != self.periods:
             return False
         first = self.phase + (STROBE - self.phase) % TURN + TURN / 2

@@ -28,9 +28,9 @@ from impact_damper.motions.strobe_map import POLISH_TOLERANCE
 # Orthogonal iteration divides the multipliers into groups of similar modulus. From one group to the
 # next the modulus falls by more than the factor APART.
 APART = 30.0
-# Orthogonal iteration turns a basis of states. It ends after SWEEPS passes over all segments, or if
-# a pass turns the basis by less than SETTLED. Neighbouring groups of multipliers are joined if
-# the last pass turns the basis by COUPLED or more.
+# Orthogonal iteration passes over all segments and turns orthogonal vectors. It ends after SWEEPS
+# passes, or if a pass turns the vectors by less than SETTLED. Neighbouring groups of multipliers
+# (see APART) are joined if the last pass turns the vectors by COUPLED or more.
 SWEEPS, SETTLED, COUPLED = 14, 1e-15, 1e-8
 # If possible, a small disturbance grows by less than this factor along a segment.
 AMPLIFIED = 30.0
@@ -199,7 +199,7 @@ def list_turns(p, states, phases, tolerance, turns):
 def flow_all(p, states, tangents, times, tolerance):
     """Integrate all segments, overwriting their first `states`. Return the total time in contact.
 
-    Segment k lasts from times[k] to times[k + 1]. tangents[k] receives its transposed derivative.
+    Segment k begins at times[k]. tangents[k] receives the transposed derivative of segment k.
     """
     work, touching = workspace(), 0.0
     for k in range(len(states)):

@@ -23,7 +23,7 @@ DISTANCES, ASIDE = (2e-2, 4e-3, 8e-4, 1e-4, 1e-5), 0.5
 # extremum is chosen whose H changes by the largest percentage along the new branch. For each s in
 # SHARES a point is searched for at which H is 1 + s times its value at the bifurcation.
 # REACH: Largest distance from the bifurcation to the first guess.
-# MISSED: Largest relative difference between the distances to the first guess and to the point.
+# MISSED: Largest relative difference between guess and point in distance from the bifurcation.
 # PASSAGES: The branch is followed through the grazing from at most this number of points.
 SHARES, MISSED, REACH, PASSAGES = (0.5, 0.2, 0.1, 0.05, 0.02), 0.5, 1e-3, 2
 # Kinds of events at which another branch begins.
@@ -111,10 +111,10 @@ def _at_heights(leaving):
 
 # A branch that begins at an event of another branch A is followed if one of these is true:
 # - A has a period in WHOLE and loses its symmetry.
-# - A has a period in WHOLE and doubles its period, and an orbit of A beside the event is stable.
-# - A has an orbit beside the event that is stable. The new branch begins with a stable orbit and
-#   has a period up to STABLE.
-# If a branch with a period up to MET ends at a more symmetric branch, this branch is followed too.
+# - A has a period in WHOLE, doubles its period, and has a stable orbit beside the event.
+# - A has a stable orbit beside the event. The new branch begins with a stable orbit and has a
+#   period up to STABLE.
+# A more symmetric branch is followed if a branch with a period up to MET ends at it.
 WHOLE, STABLE, MET = (1, 3), 9, 4
 # The end of a branch and an event of another branch are the same point if they differ by less than
 # SAME_VALUE in the parameter and by less than SAME_SIZE in max |Z1|.
@@ -126,7 +126,7 @@ NEAR = 1e-9
 def follow_others(branches, follow):
     """Append to the list `branches` each branch that meets a branch in the list.
 
-    Do this for the appended branches too. Leave out branches that WHOLE, STABLE and MET exclude.
+    Do this for the appended branches too. The comment at WHOLE says which branches are followed.
     `follow(orbit, value)` returns the branch through an orbit whose parameter is `value`.
     """
     for branch in branches:

@@ -16,7 +16,7 @@ EVENTS = {
     "grazing": ("change of contact", "P", style.SKY),
     "merging": ("change of contact", "P", style.SKY),
 }
-# Kinds of ends beyond which a branch goes on, but was not computed; OPEN is their marker.
+# Reasons why the computation ended although the branch goes on. OPEN is the marker of such an end.
 OPEN_ENDS = ("lost", "point_limit", "unstable")
 OPEN = {"marker": "x", "color": style.BLACK, "markersize": 4.5, "linestyle": "none", "zorder": 3.1}
 # Looks of branches. Columns: label, colour, opacity of unstable orbits, condition on the period.

@@ -9,7 +9,7 @@ from impact_damper.plot.sheets import datasets_in, sheet
 
 # Look of the line that joins the settled motions of a branch.
 JOINED = {"linestyle": "-", "linewidth": 0.5}
-# Outcome of a motion that has not settled -> look, with a damper (DAMPED) and without (FREE).
+# Looks of motions that have not settled, by outcome. DAMPED: with a damper. FREE: without.
 DAMPED = {name: style.ROLES[name] for name in ("chaotic", "chaotic_transient", "quasi_periodic")}
 DAMPED |= {name: style.ROLES["non_colliding"] for name in ("non_colliding", "drifting")}
 DAMPED["unresolved"] = style.ROLES["unresolved"]

@@ -28,7 +28,7 @@ OUTCOMES = {
     "drifting": "no contact",
     "chaotic": "chaotic",
 }
-# Fractions of white in the colours of a kind's motions: most frequent, second, all others.
+# Fraction of white in the colour of a motion: the most frequent of its kind, the second, others.
 PALER = (0.0, 0.45, 0.7)
 EDGE = {"fill": True, "edgecolor": style.WHITE, "linewidth": 0.4}
 INTERVAL = {"color": style.BLACK, "linewidth": 0.6}

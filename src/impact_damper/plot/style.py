@@ -128,7 +128,7 @@ def figure(column, height) -> Figure:
 
 
 def grid(count, row, rest, columns=2, **shared):
-    """Return a figure with n rows of axes, `rest` + n x `row` inches high, and its `count` axes."""
+    """Return a figure and its `count` axes. Height in inches: `rest` + `row` x number of rows."""
     columns = min(columns, count)
     rows = -(-count // columns)
     drawn = figure("double", rest + row * rows)
