@@ -118,7 +118,7 @@ def linear_flow(p, state, periods):
 
 
 def neighbourhood(p, state, periods):
-    """Return the matrix S of a neighbourhood |S (z - state)| < 1 around a `state` of an orbit.
+    """Return S for a neighbourhood of an orbit's `state`: all states z with |S (z - state)| < 1.
 
     All motions from the neighbourhood tend to the orbit. If this cannot be proved, S is infinite.
     """

@@ -165,14 +165,14 @@ def release_case(oscillator, damper, frequency, settling) -> ReleaseCase:
 
 
 def kinds(period, displacement, known):
-    """Return each motion's kind, a flag of DAMPED_MOTION. `known` is a field of `ReleaseCase`."""
+    """Return each motion's kind, a flag of DAMPED_MOTION. `known`: max |Z1| of free motions."""
     one = np.where(displacement < known[1] / 2, DAMPED_MOTION["quiet"], DAMPED_MOTION["violent"])
     several = np.where(period > 1, DAMPED_MOTION["subharmonic"], one)
     return np.where(period == 0, DAMPED_MOTION["unsettled"], several)
 
 
 def destination(known, record):
-    """Return a free motion's kind, a flag of FREE_MOTION. `known` is a field of `ReleaseCase`."""
+    """Return a free motion's kind, a flag of FREE_MOTION. `known`: max |Z1| of two free motions."""
     if not is_settled(record):
         return FREE_MOTION["unresolved"]
     if record["period"] == 3:

@@ -102,8 +102,8 @@ def survey(p, states, phases, times, tolerance, log, sums):
 def add_samples(c, order, moments, sample, count, sums):
     """Add samples of c(t) cos(W T) to sums[0], and samples of c(t) sin(W T) to sums[1].
 
-    c is a polynomial of the degree `order`. The time t since a step began takes the first `count`
-    of four values `moments`. `sample` is the first sample's number, counted from the strobe.
+    c is a polynomial of the degree `order` in the time t since the step began. Samples are taken at
+    the first `count` of four times `moments`. `sample` is the index of the first, 0 at the strobe.
     """
     t0, t1, t2, t3 = moments
     v0 = v1 = v2 = v3 = c[order]

@@ -98,7 +98,7 @@ def steady_orbit(system, damper, frequency, state, *, samples=200, settling=None
 def run_chunks(work, count, workers, progress, stop, size=CHUNK):
     """Divide range(count) into slices of length `size`; call `work(slice)` on `workers` threads.
 
-    An error or Ctrl-C sets `stop[0]`. Calls of `work` that still run then end soon by themselves.
+    An error or Ctrl-C sets `stop[0]`. Then calls of `work` that still run end soon by themselves.
     """
     bounds.check_count("workers", workers, most=4096)
     slices = [slice(first, min(first + size, count)) for first in range(0, count, size)]
