@@ -66,7 +66,7 @@ def fields_of(part, *, optional=False):
 
 
 class Given(section.Section):
-    """Base of sections whose keys are the arguments of a dataclass in SI units."""
+    """Base of sections. Keys are the arguments of a dataclass, values are in SI units."""
 
     def values(self) -> dict:
         """Return {key: value} for the keys that the user has given."""
@@ -195,7 +195,7 @@ class MachineEntry(section.Section):
 
 
 def design_arguments(content, workers=1) -> dict:
-    """Return the arguments of `design_damper`, except the machine, from a file's content."""
+    """Return the arguments of `design_damper`, except the machine, from the content of a file."""
     from impact_damper.design.task import Effort  # here, because the module loads SciPy
 
     damper, ball, band = content["damper"], content.get("contact"), content["band"]

@@ -37,9 +37,9 @@ def absorber_responses(
     """Return a dataset of displacements (mm) of a machine without absorber, and with two absorbers.
 
     One absorber is tuned: with its mass `mass` (kg) it gives the lowest peak over `band` (Hz). The
-    other is `own`, a `TunedAbsorber` or None. Displacements are at `frequencies` (Hz), for the
-    excitation times each of `force_shares`, with the stiffness of the absorber changed by each of
-    the fractions `detunings`. Without a linear spring the tuned absorber has displacements NaN.
+    other is `own`, a `TunedAbsorber` or None. Displacements are at `frequencies` (Hz). The
+    excitation is multiplied by each of `force_shares`. An absorber's stiffness is changed by each
+    of the fractions `detunings`. Without a linear spring the tuned absorber has displacements NaN.
     """
     names = COMPETITORS[: 2 if own is None else 3]
     sizes = np.full((len(names), len(detunings), len(frequencies), len(force_shares)), np.nan)

@@ -38,7 +38,7 @@ class Tried(NamedTuple):
 
     @property
     def by_gap(self) -> float:
-        """Promised displacement if only the gap deviates, mm."""
+        """Promised displacement if only the gap deviates from its nominal value, mm."""
         only = (self.promise.sets[:, 1:] == 1).all(axis=1)
         return float(self.promise.by_set()[only].max())
 

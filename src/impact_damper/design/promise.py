@@ -13,9 +13,9 @@ CORNERS = 8  # largest number of corners. In a corner each value is at one end o
 # A set of factors has a bound of the displacement at each frequency. The largest of these bounds is
 # the peak of the set. Up to SPLITS rounds add frequencies on both sides of each peak that is at
 # least NEAR x the largest peak of all sets. No frequencies are added beside an accurate peak.
-# A finite peak is accurate if two conditions hold. The latest round has raised the peak by at most
-# the fraction PEAK. A parabola through the largest bound and the bounds at both neighbouring
-# frequencies has a maximum that exceeds the largest bound by at most the fraction PEAK.
+# A finite peak is accurate if two conditions hold: (1) The latest round has raised the peak by at
+# most the fraction PEAK. (2) The maximum of a parabola exceeds the peak by at most the fraction
+# PEAK. The parabola passes through the peak and the bounds at both neighbouring frequencies.
 NEAR, PEAK, SPLITS = 0.9, 0.01, 4
 FEWEST = 9  # least number of frequencies at which a set other than the nominal one is run first
 # A cell has rare motions if its bound exceeds RARE x the largest usual displacement of all cells.

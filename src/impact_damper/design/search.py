@@ -110,7 +110,7 @@ class Curve:
         return gaps, self.within(*self.task.gap_ends(gaps))
 
     def ranges(self) -> list:
-        """Return each `Range` of nominal gaps with small displacements (see CANDIDATE)."""
+        """Return all ranges of nominal gaps with small displacements (see CANDIDATE)."""
         gaps, values = self.nominal()
         found = []
         for first, after in runs_of_true(values <= CANDIDATE * values.min()):
