@@ -124,6 +124,7 @@ lowest:
 	uv pip compile pyproject.toml --extra command --extra test --resolution lowest-direct \
 		--python-version 3.11 --no-header --no-emit-index-url --output-file $(LOWEST)/requirements.txt
 	$(LOWEST)/bin/pip install --requirement $(LOWEST)/requirements.txt
+	$(LOWEST)/bin/pip install --no-deps --editable .
 	PYTHONPATH=src $(LOWEST)/bin/python -m pytest --numprocesses auto --dist loadfile \
 		--ignore tests/paper $(PYTEST)
 

@@ -191,8 +191,8 @@ def rule_ratios(oscillator, damper, frequency):
 
     Each row is for one of CRITERIA, and each column for one of RULES. `balance` is rule (18).
     `gap_harmonic` is FIRST_HARMONIC_RATIO. `flight` is the optimum of the damper's `Flight`.
-    `straight_flight` is the optimum of a `Flight` between rigid walls, for a machine without
-    damping and linear stiffness. `elastic` is `elastic_ratios`, and NaN if e < 1.
+    `straight_flight` is the optimum of a `Flight` between rigid walls, for a machine that
+    has neither damping nor a linear spring. `elastic` is `elastic_ratios`, and NaN if e < 1.
     """
     flight = flight_of(oscillator, damper, frequency)
     straight = Flight(damper.mass_ratio, damper.restitution)

@@ -119,7 +119,7 @@ def crossings(part, frequency) -> pd.DataFrame:
 
 
 def smallest(part, frequency) -> pd.DataFrame:
-    """Return a table with the orbit of least max |Z1| in the pieces `part` at each frequency."""
+    """Return a table: for each frequency, the orbit in `part` (pieces) with the least max |Z1|."""
     rows = crossings(part, frequency)
     return rows.loc[rows.groupby("frequency")["size"].idxmin()]
 

@@ -189,7 +189,7 @@ def harmonic_convergence(oscillator, damper, frequency, harmonics, *, cold=()):
 
 
 def cold_status(warm, first) -> int:
-    """Solve the balance of `warm` from the coefficients `first`. Return a flag for the outcome."""
+    """Compare the solution `warm` with a solution that begins at the coefficients `first`."""
     found = solve(warm.balance, first)
     if found.status != "converged":
         return flag("cold_status", found.status)

@@ -119,7 +119,7 @@ def motion(order, phase, constants, across):
     """Yield lines of code that compute the Taylor series of Z1 in a step, up to `order`.
 
     If `phase` is "contact" (not "flight"), the lines also compute the series of the depth in the
-    wall. The lines read these variables, and the variables that the lines of `beginning` set:
+    wall. The lines read the variables that `beginning` defines, and these:
 
     x0, x1, q0, q1     at the beginning of the step: Z1 and Z1', in contact the depth and its rate
     cosine, sine       at the beginning of the step: (F + U W^2) cos(W T) and (F + U W^2) sin(W T)
