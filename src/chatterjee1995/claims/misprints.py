@@ -46,7 +46,7 @@ def penetration(datasets):
 
 
 def captions(datasets):
-    """Return numbers on misprint S2: the clearances of figure 3, as printed and as rule (19) gives them."""
+    """Return numbers on misprint S2: clearances of figure 3, as printed and by rule (19)."""
     numbers = {}
     for panel, *names in zip("ba", CAPTIONS[1:], RULES[1:], strict=True):
         designs = reading.select(datasets, "harmonic_balance", names)
